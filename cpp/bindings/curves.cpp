@@ -1,0 +1,2 @@
+#include "bindings/bindings.hpp"
+namespace planformer { void register_curves(nb::module_&) {} }

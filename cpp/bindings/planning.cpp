@@ -1,0 +1,168 @@
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bindings/bindings.hpp"
+#include "core/plan.hpp"
+#include "core/validity.hpp"
+
+namespace planformer {
+
+namespace {
+
+using PoseArray = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
+
+std::vector<double> flatten(const std::vector<Pose>& poses) {
+    std::vector<double> values;
+    values.reserve(3 * poses.size());
+    for (const Pose& pose : poses) values.insert(values.end(), {pose.x, pose.y, pose.yaw});
+    return values;
+}
+
+std::vector<std::uint32_t> flatten(const Tree& tree) {
+    std::vector<std::uint32_t> values;
+    values.reserve(2 * tree.edges.size());
+    for (const auto& [parent, child] : tree.edges) values.insert(values.end(), {parent, child});
+    return values;
+}
+
+Pose to_pose(const std::array<double, 3>& values) { return {values[0], values[1], values[2]}; }
+
+std::shared_ptr<Region> make_region(const PoseArray& anchors, bool has_heading, double half_width,
+                                    double minor_axis, double yaw_deviation, double area) {
+    if (anchors.shape(0) == 0) throw nb::value_error("a region needs at least one anchor");
+    auto region = std::make_shared<Region>();
+    for (std::size_t i = 0; i < anchors.shape(0); ++i) {
+        const double* row = anchors.data() + 3 * i;
+        region->anchors.push_back({row[0], row[1], row[2]});
+    }
+    region->has_heading = has_heading;
+    region->half_width = half_width;
+    region->minor_axis = minor_axis;
+    region->yaw_deviation = yaw_deviation;
+    region->area = area;
+    return region;
+}
+
+/// Whether a Python signal handler raised, which is how Ctrl-C arrives.
+bool python_interrupted() {
+    const nb::gil_scoped_acquire gil;
+    return PyErr_CheckSignals() != 0;
+}
+
+Answer run_plan(const BlockedArray& blocked, double resolution, const RobotModel& robot,
+                const std::array<double, 3>& start, const std::array<double, 3>& goal,
+                const std::string& planner, std::shared_ptr<Region> region, double exploration,
+                const Limits& limits, std::uint32_t seed, bool keep_tree, double goal_tolerance,
+                const Cancellation* cancellation) {
+    Query query;
+    query.free_space = free_space_of(blocked, resolution);
+    query.robot = robot;
+    query.start = to_pose(start);
+    query.goal = to_pose(goal);
+    query.planner = planner;
+    query.guidance = {std::move(region), exploration};
+    query.limits = limits;
+    query.seed = seed;
+    query.keep_tree = keep_tree;
+    query.goal_tolerance = goal_tolerance;
+    query.cancellation = cancellation;
+    bool interrupted = false;
+    query.interrupted = [&interrupted] { return interrupted = python_interrupted(); };
+    Answer answer;
+    {
+        const nb::gil_scoped_release release;
+        answer = plan(query);
+    }
+    if (interrupted) throw nb::python_error();
+    return answer;
+}
+
+}  // namespace
+
+void register_planning(nb::module_& m) {
+    nb::enum_<RobotKind>(m, "RobotKind")
+        .value("POINT", RobotKind::kPoint)
+        .value("CAR", RobotKind::kCar);
+    nb::enum_<Outcome>(m, "Outcome")
+        .value("FINISHED", Outcome::kFinished)
+        .value("TARGET", Outcome::kTarget)
+        .value("TIME_LIMIT", Outcome::kTimeLimit)
+        .value("VERTEX_LIMIT", Outcome::kVertexLimit)
+        .value("CANCELLED", Outcome::kCancelled);
+
+    nb::class_<RobotModel>(m, "RobotModel")
+        .def("__init__",
+             [](RobotModel* self, RobotKind kind, double turning_radius, bool reverse,
+                double wheelbase, double max_speed) {
+                 new (self) RobotModel{kind, turning_radius, reverse, wheelbase, max_speed};
+             },
+             nb::arg("kind"), nb::arg("turning_radius") = 0.0, nb::arg("reverse") = false,
+             nb::arg("wheelbase") = 0.0, nb::arg("max_speed") = 0.0);
+    nb::class_<Limits>(m, "Limits")
+        .def("__init__",
+             [](Limits* self, std::optional<double> seconds, std::optional<double> target_length,
+                std::optional<std::size_t> vertices) {
+                 new (self) Limits{};
+                 if (seconds) self->seconds = *seconds;
+                 if (target_length) self->target_length = *target_length;
+                 if (vertices) self->vertices = *vertices;
+             },
+             nb::arg("seconds") = nb::none(), nb::arg("target_length") = nb::none(),
+             nb::arg("vertices") = nb::none());
+    nb::class_<Cancellation>(m, "Cancellation", "Ends a plan from another thread.")
+        .def(nb::init<>())
+        .def("cancel", &Cancellation::cancel, "End the plans that hold this object; thread-safe.")
+        .def_prop_ro("is_cancelled", &Cancellation::is_cancelled);
+    nb::class_<Region>(m, "Region")
+        .def(nb::new_(&make_region), nb::arg("anchors"), nb::kw_only(), nb::arg("has_heading"),
+             nb::arg("half_width"), nb::arg("minor_axis"), nb::arg("yaw_deviation"),
+             nb::arg("area"))
+        .def("sample",
+             [](const Region& self, std::size_t count, std::uint32_t seed) {
+                 ompl::RNG rng;
+                 rng.setLocalSeed(seed);
+                 std::vector<Pose> poses(count);
+                 for (Pose& pose : poses) pose = sample_region(self, rng);
+                 return to_numpy(flatten(poses), 3);
+             },
+             nb::arg("count"), nb::arg("seed"), "Draw (count, 3) poses, some maybe off the map.");
+
+    nb::class_<Answer>(m, "Answer")
+        .def_prop_ro("path", [](const Answer& a) { return to_numpy(flatten(a.path), 3); },
+                     nb::rv_policy::move)
+        .def_ro("length", &Answer::length)
+        .def_ro("vertices", &Answer::vertices)
+        .def_ro("seconds", &Answer::seconds)
+        .def_ro("outcome", &Answer::outcome)
+        .def_prop_ro("tree_vertices",
+                     [](const Answer& a) { return to_numpy(flatten(a.tree.vertices), 3); },
+                     nb::rv_policy::move)
+        .def_prop_ro("tree_edges", [](const Answer& a) { return to_numpy(flatten(a.tree), 2); },
+                     nb::rv_policy::move);
+
+    m.def("plan", &run_plan, nb::arg("blocked"), nb::arg("resolution"), nb::arg("robot"),
+          nb::arg("start"), nb::arg("goal"), nb::kw_only(), nb::arg("planner"),
+          nb::arg("region") = nb::none(), nb::arg("exploration") = 0.0, nb::arg("limits"),
+          nb::arg("seed"), nb::arg("keep_tree") = false, nb::arg("goal_tolerance") = 0.0,
+          nb::arg("cancellation") = nb::none(),
+          "Plan in the map's local frame; see planformer.planning.search.");
+    m.def("planner_names", &planner_names, nb::arg("robot"));
+    m.def(
+        "segment_is_free",
+        [](const BlockedArray& blocked, double resolution, double x0, double y0, double x1,
+           double y1) {
+            return free_space_of(blocked, resolution).segment_is_free(x0, y0, x1, y1);
+        },
+        nb::arg("blocked"), nb::arg("resolution"), nb::arg("x0"), nb::arg("y0"), nb::arg("x1"),
+        nb::arg("y1"), "The motion validator's check of one segment in the local frame.");
+}
+
+}  // namespace planformer

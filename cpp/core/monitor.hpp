@@ -1,0 +1,115 @@
+#pragma once
+
+#include <ompl/base/Planner.h>
+#include <ompl/base/PlannerTerminationCondition.h>
+#include <ompl/base/State.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <thread>
+#include <utility>
+
+namespace planformer {
+
+/// When a search ends. Infinite and maximal values mean "no limit".
+struct Limits {
+    double seconds = std::numeric_limits<double>::infinity();
+    double target_length = 0.0;  ///< stop at the first path this short [m]; 0: never
+    std::size_t vertices = std::numeric_limits<std::size_t>::max();
+};
+
+/// Why a search ended.
+enum class Outcome {
+    kFinished,     ///< the planner ended by itself
+    kTarget,       ///< a path at most as long as the target was found
+    kTimeLimit,
+    kVertexLimit,
+    kCancelled,
+};
+
+/// Lets another thread end a search.
+class Cancellation {
+public:
+    void cancel() { cancelled_.store(true, std::memory_order_relaxed); }
+    bool is_cancelled() const { return cancelled_.load(std::memory_order_relaxed); }
+
+private:
+    std::atomic<bool> cancelled_{false};
+};
+
+/// The number of states that a state space has handed out and not got back.
+///
+/// It bounds the vertices of every planner from above at no cost, so that the exact count, which
+/// OMPL only offers as a copy of the whole graph, is taken only when it can matter.
+class StateCount {
+public:
+    void add() { alive_.fetch_add(1, std::memory_order_relaxed); }
+    void remove() { alive_.fetch_sub(1, std::memory_order_relaxed); }
+    std::size_t alive() const { return alive_.load(std::memory_order_relaxed); }
+
+private:
+    std::atomic<std::size_t> alive_{0};
+};
+
+/// A state space that counts its states.
+template <typename Space>
+class Counted : public Space {
+public:
+    template <typename... Args>
+    explicit Counted(StateCount* count, Args&&... args)
+        : Space(std::forward<Args>(args)...), count_(count) {}
+
+    ompl::base::State* allocState() const override {
+        count_->add();
+        return Space::allocState();
+    }
+
+    void freeState(ompl::base::State* state) const override {
+        count_->remove();
+        Space::freeState(state);
+    }
+
+private:
+    StateCount* count_;
+};
+
+/// Ends a search at its limits and remembers which of them it was.
+class Monitor {
+public:
+    using Clock = std::chrono::steady_clock;
+
+    /// `interrupted` is asked about every 20 ms from the planning thread; it may be empty.
+    Monitor(const Limits& limits, const ompl::base::Planner& planner, const StateCount& states,
+            const Cancellation* cancellation, std::function<bool()> interrupted);
+
+    ompl::base::PlannerTerminationCondition condition();
+
+    /// Call after the search; `best_length` is infinite without a path.
+    Outcome outcome(double best_length) const;
+
+    double seconds() const;
+
+private:
+    bool should_stop();
+    bool is_interrupted();
+    bool has_too_many_vertices();
+
+    Limits limits_;
+    const ompl::base::Planner& planner_;
+    const StateCount& states_;
+    const Cancellation* cancellation_;
+    std::function<bool()> interrupted_;
+    Clock::time_point start_;
+    double next_interrupt_check_ = 0.0;
+    std::size_t next_vertex_check_;
+    std::thread::id thread_;
+    std::atomic<Outcome> reason_{Outcome::kFinished};
+};
+
+/// The collision-free states in the planner's trees or roadmap.
+std::size_t count_vertices(const ompl::base::Planner& planner);
+
+}  // namespace planformer

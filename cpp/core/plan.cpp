@@ -1,0 +1,143 @@
+#include "core/plan.hpp"
+
+#include <ompl/base/PlannerData.h>
+#include <ompl/base/ProblemDefinition.h>
+#include <ompl/base/SpaceInformation.h>
+#include <ompl/base/spaces/RealVectorStateSpace.h>
+#include <ompl/geometric/PathGeometric.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+
+#include "core/car_space.hpp"
+#include "core/objective.hpp"
+#include "core/seeding.hpp"
+#include "core/sst.hpp"
+#include "core/validity.hpp"
+
+namespace planformer {
+
+namespace ob = ompl::base;
+namespace og = ompl::geometric;
+
+namespace {
+
+ob::RealVectorBounds bounds_of(const Extent& extent) {
+    ob::RealVectorBounds bounds(2);
+    bounds.setLow(0.0);
+    bounds.setHigh(0, extent.x);
+    bounds.setHigh(1, extent.y);
+    return bounds;
+}
+
+ob::StateSpacePtr make_space(const RobotModel& robot, const Extent& extent, StateCount* count) {
+    if (robot.kind == RobotKind::kPoint) {
+        auto space = std::make_shared<Counted<ob::RealVectorStateSpace>>(count, 2u);
+        space->setBounds(bounds_of(extent));
+        return space;
+    }
+    auto space = std::make_shared<Counted<CarSpace>>(count, robot.turning_radius, robot.reverse);
+    space->setBounds(bounds_of(extent));
+    return space;
+}
+
+ob::SpaceInformationPtr make_space_information(const Query& query, const Extent& extent,
+                                               StateCount* count) {
+    const ob::StateSpacePtr space = make_space(query.robot, extent, count);
+    space->setStateSamplerAllocator(
+        [guidance = query.guidance, extent, seed = query.seed](const ob::StateSpace* s) {
+            return seeded(seed, [&] {
+                return std::make_shared<GuidedSampler>(s, guidance, extent, seed);
+            });
+        });
+    auto si = std::make_shared<ob::SpaceInformation>(space);
+    si->setStateValidityChecker(std::make_shared<GridValidityChecker>(si, query.free_space));
+    si->setMotionValidator(std::make_shared<GridMotionValidator>(si, query.free_space));
+    si->setup();
+    return si;
+}
+
+ob::ProblemDefinitionPtr make_problem(const Query& query, const Extent& extent,
+                                      const ob::SpaceInformationPtr& si) {
+    auto problem = std::make_shared<ob::ProblemDefinition>(si);
+    ob::ScopedState<> start(si);
+    ob::ScopedState<> goal(si);
+    write_state(*si->getStateSpace(), query.start, start.get());
+    write_state(*si->getStateSpace(), query.goal, goal.get());
+    problem->setStartAndGoalStates(start, goal);
+    auto objective = std::make_shared<GuidedPathLength>(si, query.guidance, extent, query.seed);
+    objective->setCostThreshold(ob::Cost(query.limits.target_length));
+    problem->setOptimizationObjective(objective);
+    return problem;
+}
+
+/// The states of a path, and for a car the poses between them at which it was checked.
+std::vector<Pose> read_path(const og::PathGeometric& path, double step) {
+    const ob::StateSpace& space = *path.getSpaceInformation()->getStateSpace();
+    const auto* car = dynamic_cast<const CarSpace*>(&space);
+    std::vector<Pose> poses{read_state(space, path.getState(0))};
+    for (std::size_t i = 1; i < path.getStateCount(); ++i) {
+        const Pose target = read_state(space, path.getState(i));
+        if (car == nullptr) {
+            poses.push_back(target);
+        } else {
+            append_motion(car->curve(path.getState(i - 1), path.getState(i)), target, step, &poses);
+        }
+    }
+    return poses;
+}
+
+Answer plan_geometric(const Query& query) {
+    const Extent extent{query.free_space.extent_x(), query.free_space.extent_y()};
+    StateCount states;  // outlives the planner and its states
+    const auto si = make_space_information(query, extent, &states);
+    const auto problem = make_problem(query, extent, si);
+    const ob::PlannerPtr planner = seeded(query.seed, [&] {
+        ob::PlannerPtr made = make_planner(query.planner, si);
+        if (!made) throw std::invalid_argument("unknown planner: " + query.planner);
+        made->setProblemDefinition(problem);
+        made->setup();
+        return made;
+    });
+
+    Monitor monitor(query.limits, *planner, states, query.cancellation, query.interrupted);
+    planner->solve(monitor.condition());
+    Answer answer;
+    answer.seconds = monitor.seconds();
+    answer.length = std::numeric_limits<double>::infinity();
+    if (problem->hasExactSolution()) {
+        const auto& path = *problem->getSolutionPath()->as<og::PathGeometric>();
+        answer.length = path.length();
+        answer.path = read_path(path, kArcStep * query.free_space.resolution);
+    }
+    answer.outcome = monitor.outcome(answer.length);
+    answer.vertices = count_vertices(*planner);
+    if (query.keep_tree) answer.tree = read_tree(*planner);
+    return answer;
+}
+
+}  // namespace
+
+Tree read_tree(const ob::Planner& planner) {
+    ob::PlannerData data(planner.getSpaceInformation());
+    planner.getPlannerData(data);
+    const ob::StateSpace& space = *planner.getSpaceInformation()->getStateSpace();
+    Tree tree;
+    tree.vertices.reserve(data.numVertices());
+    for (unsigned int i = 0; i < data.numVertices(); ++i) {
+        tree.vertices.push_back(read_state(space, data.getVertex(i).getState()));
+        std::vector<unsigned int> children;
+        data.getEdges(i, children);
+        for (const unsigned int child : children) tree.edges.emplace_back(i, child);
+    }
+    return tree;
+}
+
+Answer plan(const Query& query) {
+    if (query.planner == "SST") return plan_sst(query);
+    return plan_geometric(query);
+}
+
+}  // namespace planformer

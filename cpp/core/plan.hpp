@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/curve.hpp"
+#include "core/free_space.hpp"
+#include "core/monitor.hpp"
+#include "core/planners.hpp"
+#include "core/region.hpp"
+
+namespace planformer {
+
+/// What moves: a point on the inflated grid, or a car with a bounded turning radius on it.
+struct RobotModel {
+    RobotKind kind = RobotKind::kPoint;
+    double turning_radius = 0.0;  ///< [m]
+    bool reverse = false;         ///< the car may drive backwards (Reeds-Shepp curves)
+    double wheelbase = 0.0;       ///< [m], for control-space planning
+    double max_speed = 0.0;       ///< [m/s], for control-space planning
+};
+
+/// One planning request, in the map's local frame.
+struct Query {
+    FreeSpace free_space;
+    RobotModel robot;
+    Pose start;
+    Pose goal;
+    std::string planner;
+    Guidance guidance;
+    Limits limits;
+    std::uint32_t seed = 1;
+    bool keep_tree = false;
+    double goal_tolerance = 0.0;  ///< [m], for control-space planning
+    const Cancellation* cancellation = nullptr;
+    std::function<bool()> interrupted;  ///< asked every 20 ms whether to give up
+};
+
+/// The planner's graph, for pictures.
+struct Tree {
+    std::vector<Pose> vertices;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;  ///< (parent, child)
+};
+
+/// The answer; an empty path means that none was found.
+struct Answer {
+    std::vector<Pose> path;
+    double length = 0.0;  ///< [m]
+    std::size_t vertices = 0;
+    double seconds = 0.0;
+    Outcome outcome = Outcome::kFinished;
+    Tree tree;
+};
+
+/// Runs one of OMPL's planners, geometric or control-space, on the query.
+///
+/// The planner name has to be one of `planner_names`; start and goal have to be valid.
+Answer plan(const Query& query);
+
+/// The planner's graph as poses.
+Tree read_tree(const ompl::base::Planner& planner);
+
+}  // namespace planformer

@@ -1,0 +1,104 @@
+#include "core/region.hpp"
+
+#include <ompl/base/spaces/RealVectorStateSpace.h>
+#include <ompl/base/spaces/SE2StateSpace.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace planformer {
+
+namespace ob = ompl::base;
+
+namespace {
+
+/// Draws that miss the map are repeated this often before the draw is clamped to it.
+constexpr int kMaxRedraws = 100;
+
+bool is_car(const ob::StateSpace& space) { return space.getType() == ob::STATE_SPACE_SE2; }
+
+Pose sample_square(const Pose& anchor, double half_width, ompl::RNG& rng) {
+    return {anchor.x + rng.uniformReal(-half_width, half_width),
+            anchor.y + rng.uniformReal(-half_width, half_width), rng.uniformReal(-kPi, kPi)};
+}
+
+Pose sample_ellipse(const Region& region, const Pose& anchor, ompl::RNG& rng) {
+    const double radius = std::sqrt(rng.uniform01());
+    const double angle = rng.uniformReal(-kPi, kPi);
+    const double along = region.half_width * radius * std::cos(angle);
+    const double across = region.minor_axis * radius * std::sin(angle);
+    const double c = std::cos(anchor.yaw);
+    const double s = std::sin(anchor.yaw);
+    return {anchor.x + c * along - s * across, anchor.y + s * along + c * across,
+            rng.gaussian(anchor.yaw, region.yaw_deviation)};
+}
+
+}  // namespace
+
+void write_state(const ob::StateSpace& space, const Pose& pose, ob::State* state) {
+    if (!is_car(space)) {
+        auto* point = state->as<ob::RealVectorStateSpace::StateType>();
+        point->values[0] = pose.x;
+        point->values[1] = pose.y;
+        return;
+    }
+    auto* car = state->as<ob::SE2StateSpace::StateType>();
+    car->setXY(pose.x, pose.y);
+    car->setYaw(wrap_angle(pose.yaw));
+}
+
+Pose read_state(const ob::StateSpace& space, const ob::State* state) {
+    if (!is_car(space)) {
+        const auto* point = state->as<ob::RealVectorStateSpace::StateType>();
+        return {point->values[0], point->values[1], 0.0};
+    }
+    const auto* car = state->as<ob::SE2StateSpace::StateType>();
+    return {car->getX(), car->getY(), car->getYaw()};
+}
+
+Pose sample_region(const Region& region, ompl::RNG& rng) {
+    const int last = static_cast<int>(region.anchors.size()) - 1;
+    const Pose& anchor = region.anchors[rng.uniformInt(0, last)];
+    if (region.has_heading) return sample_ellipse(region, anchor, rng);
+    return sample_square(anchor, region.half_width, rng);
+}
+
+Pose sample_extent(const Extent& extent, ompl::RNG& rng) {
+    return {rng.uniformReal(0.0, extent.x), rng.uniformReal(0.0, extent.y),
+            rng.uniformReal(-kPi, kPi)};
+}
+
+Pose sample_guided(const Guidance& guidance, const Extent& extent, ompl::RNG& rng) {
+    const bool explore = guidance.exploration > 0.0 && rng.uniform01() < guidance.exploration;
+    if (!guidance.region || explore) return sample_extent(extent, rng);
+    Pose pose = sample_region(*guidance.region, rng);
+    for (int i = 0; i < kMaxRedraws && !extent.contains(pose); ++i) {
+        pose = sample_region(*guidance.region, rng);
+    }
+    pose.x = std::clamp(pose.x, 0.0, extent.x);
+    pose.y = std::clamp(pose.y, 0.0, extent.y);
+    return pose;
+}
+
+GuidedSampler::GuidedSampler(const ob::StateSpace* space, Guidance guidance, Extent extent,
+                             std::uint32_t seed)
+    : ob::StateSampler(space),
+      guidance_(std::move(guidance)),
+      extent_(extent),
+      local_(space->allocDefaultStateSampler()) {
+    rng_.setLocalSeed(seed);
+}
+
+void GuidedSampler::sampleUniform(ob::State* state) {
+    write_state(*space_, sample_guided(guidance_, extent_, rng_), state);
+}
+
+void GuidedSampler::sampleUniformNear(ob::State* state, const ob::State* near, double distance) {
+    local_->sampleUniformNear(state, near, distance);
+}
+
+void GuidedSampler::sampleGaussian(ob::State* state, const ob::State* mean, double deviation) {
+    local_->sampleGaussian(state, mean, deviation);
+}
+
+}  // namespace planformer

@@ -1,0 +1,208 @@
+#include "core/sst.hpp"
+
+#include <ompl/base/goals/GoalState.h>
+#include <ompl/base/objectives/PathLengthOptimizationObjective.h>
+#include <ompl/base/spaces/SE2StateSpace.h>
+#include <ompl/control/PathControl.h>
+#include <ompl/control/SpaceInformation.h>
+#include <ompl/control/planners/sst/SST.h>
+#include <ompl/control/spaces/RealVectorControlSpace.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "core/seeding.hpp"
+#include "core/validity.hpp"
+
+namespace planformer {
+
+namespace ob = ompl::base;
+namespace oc = ompl::control;
+
+namespace {
+
+constexpr double kStepSeconds = 0.1;
+constexpr unsigned int kMaxSteps = 20;
+
+/// One control may turn the car by at most this much, so that states alone tell the arc's length.
+constexpr double kMaxTurn = 3.0;  // [rad], below pi
+
+/// The arc that a control drives from a pose.
+Curve drive(const Pose& from, const oc::Control* control, double seconds, double wheelbase) {
+    const double* values = control->as<oc::RealVectorControlSpace::ControlType>()->values;
+    Curve curve(from);
+    curve.append({std::tan(values[1]) / wheelbase, values[0] * seconds});
+    return curve;
+}
+
+/// The car's bicycle model, integrated in closed form.
+class CarPropagator : public oc::StatePropagator {
+public:
+    CarPropagator(oc::SpaceInformation* si, const FreeSpace& free_space, double wheelbase)
+        : oc::StatePropagator(si), free_space_(free_space), wheelbase_(wheelbase) {}
+
+    void propagate(const ob::State* state, const oc::Control* control, double seconds,
+                   ob::State* result) const override {
+        const ob::StateSpace& space = *si_->getStateSpace();
+        const Curve arc = drive(read_state(space, state), control, seconds, wheelbase_);
+        const Pose end = arc.end();
+        // OMPL only checks the states between steps. A step that collides on the way is sent
+        // outside the map, where no state is valid.
+        const Pose outside{-1.0, -1.0, 0.0};
+        write_state(space, curve_is_free(free_space_, arc, end) ? end : outside, result);
+    }
+
+private:
+    FreeSpace free_space_;
+    double wheelbase_;
+};
+
+/// Reached within a distance, and within the turn made over that distance.
+class CarGoal : public ob::GoalState {
+public:
+    CarGoal(const ob::SpaceInformationPtr& si, double turning_radius, double tolerance)
+        : ob::GoalState(si), turning_radius_(turning_radius) {
+        setThreshold(tolerance);
+    }
+
+    double distanceGoal(const ob::State* state) const override {
+        const ob::StateSpace& space = *si_->getStateSpace();
+        const Pose a = read_state(space, state);
+        const Pose b = read_state(space, getState());
+        const double turn = std::abs(wrap_angle(a.yaw - b.yaw));
+        return std::max(std::hypot(a.x - b.x, a.y - b.y), turning_radius_ * turn);
+    }
+
+private:
+    double turning_radius_;
+};
+
+/// The length of the arc between two states that one control joins.
+class DrivenLength : public ob::PathLengthOptimizationObjective {
+public:
+    using ob::PathLengthOptimizationObjective::PathLengthOptimizationObjective;
+
+    ob::Cost motionCost(const ob::State* from, const ob::State* to) const override {
+        const ob::StateSpace& space = *si_->getStateSpace();
+        const Pose a = read_state(space, from);
+        const Pose b = read_state(space, to);
+        const double half = 0.5 * wrap_angle(b.yaw - a.yaw);
+        const double chord = std::hypot(b.x - a.x, b.y - a.y);
+        return ob::Cost(std::abs(half) < 1e-6 ? chord : chord * half / std::sin(half));
+    }
+};
+
+ob::StateSpacePtr make_space(const Query& query, const Extent& extent, StateCount* count) {
+    auto space = std::make_shared<Counted<ob::SE2StateSpace>>(count);
+    ob::RealVectorBounds bounds(2);
+    bounds.setLow(0.0);
+    bounds.setHigh(0, extent.x);
+    bounds.setHigh(1, extent.y);
+    space->setBounds(bounds);
+    space->setStateSamplerAllocator(
+        [guidance = query.guidance, extent, seed = query.seed](const ob::StateSpace* s) {
+            return seeded(seed, [&] {
+                return std::make_shared<GuidedSampler>(s, guidance, extent, seed);
+            });
+        });
+    return space;
+}
+
+oc::ControlSpacePtr make_controls(const Query& query, const ob::StateSpacePtr& space) {
+    auto controls = std::make_shared<oc::RealVectorControlSpace>(space, 2);
+    const double steering = std::atan(query.robot.wheelbase / query.robot.turning_radius);
+    ob::RealVectorBounds bounds(2);
+    bounds.setLow(0, query.robot.reverse ? -query.robot.max_speed : 0.0);
+    bounds.setHigh(0, query.robot.max_speed);
+    bounds.setLow(1, -steering);
+    bounds.setHigh(1, steering);
+    controls->setBounds(bounds);
+    controls->setControlSamplerAllocator([seed = query.seed](const oc::ControlSpace* c) {
+        return seeded(seed, [&] { return c->allocDefaultControlSampler(); });
+    });
+    return controls;
+}
+
+std::shared_ptr<oc::SpaceInformation> make_space_information(const Query& query,
+                                                             const Extent& extent,
+                                                             StateCount* count) {
+    const ob::StateSpacePtr space = make_space(query, extent, count);
+    auto si = std::make_shared<oc::SpaceInformation>(space, make_controls(query, space));
+    si->setStateValidityChecker(std::make_shared<GridValidityChecker>(si, query.free_space));
+    si->setMotionValidator(std::make_shared<GridMotionValidator>(si, query.free_space));
+    si->setStatePropagator(std::make_shared<CarPropagator>(si.get(), query.free_space,
+                                                           query.robot.wheelbase));
+    si->setPropagationStepSize(kStepSeconds);
+    const double turn = query.robot.max_speed * kStepSeconds / query.robot.turning_radius;
+    const double steps = std::clamp(std::floor(kMaxTurn / turn), 1.0, double{kMaxSteps});
+    si->setMinMaxControlDuration(1, static_cast<unsigned int>(steps));
+    si->setup();
+    return si;
+}
+
+ob::ProblemDefinitionPtr make_problem(const Query& query,
+                                      const std::shared_ptr<oc::SpaceInformation>& si) {
+    auto problem = std::make_shared<ob::ProblemDefinition>(si);
+    ob::ScopedState<> start(si);
+    ob::ScopedState<> goal_state(si);
+    write_state(*si->getStateSpace(), query.start, start.get());
+    write_state(*si->getStateSpace(), query.goal, goal_state.get());
+    problem->addStartState(start);
+    auto goal = std::make_shared<CarGoal>(si, query.robot.turning_radius, query.goal_tolerance);
+    goal->setState(goal_state);
+    problem->setGoal(goal);
+    auto objective = std::make_shared<DrivenLength>(si);
+    objective->setCostThreshold(ob::Cost(query.limits.target_length));
+    problem->setOptimizationObjective(objective);
+    return problem;
+}
+
+/// The driven poses, at the spacing at which they were checked.
+void read_path(const Query& query, const oc::PathControl& path, Answer* answer) {
+    const ob::StateSpace& space = *path.getSpaceInformation()->getStateSpace();
+    const double spacing = kArcStep * query.free_space.resolution;
+    answer->path.push_back(read_state(space, path.getState(0)));
+    answer->length = 0.0;
+    for (std::size_t i = 0; i < path.getControlCount(); ++i) {
+        const int steps = static_cast<int>(std::lround(path.getControlDuration(i) / kStepSeconds));
+        Pose pose = read_state(space, path.getState(i));
+        // Step by step, as it was propagated, so that the very chords that were checked come back.
+        for (int k = 0; k < steps; ++k) {
+            const Curve arc = drive(pose, path.getControl(i), kStepSeconds, query.robot.wheelbase);
+            answer->length += arc.length();
+            pose = arc.end();
+            append_motion(arc, pose, spacing, &answer->path);
+        }
+    }
+}
+
+}  // namespace
+
+Answer plan_sst(const Query& query) {
+    const Extent extent{query.free_space.extent_x(), query.free_space.extent_y()};
+    StateCount states;  // outlives the planner and its states
+    const auto si = make_space_information(query, extent, &states);
+    const auto problem = make_problem(query, si);
+    const auto planner = seeded(query.seed, [&] {
+        auto made = std::make_shared<oc::SST>(si);
+        made->setProblemDefinition(problem);
+        made->setup();
+        return made;
+    });
+    Monitor monitor(query.limits, *planner, states, query.cancellation, query.interrupted);
+    planner->solve(monitor.condition());
+    Answer answer;
+    answer.seconds = monitor.seconds();
+    answer.length = std::numeric_limits<double>::infinity();
+    if (problem->hasExactSolution()) {
+        read_path(query, *problem->getSolutionPath()->as<oc::PathControl>(), &answer);
+    }
+    answer.outcome = monitor.outcome(answer.length);
+    answer.vertices = count_vertices(*planner);
+    if (query.keep_tree) answer.tree = read_tree(*planner);
+    return answer;
+}
+
+}  // namespace planformer

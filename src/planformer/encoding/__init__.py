@@ -1,0 +1,24 @@
+"""What goes into the networks and where their outputs lie. NumPy only."""
+
+from planformer.encoding.anchors import (
+    LABEL_DISTANCE,
+    anchor_headings,
+    anchor_labels,
+    anchor_points,
+    region_mask,
+)
+from planformer.encoding.query import encode_query
+from planformer.encoding.raster import network_map
+from planformer.encoding.scale import NetworkScale, QueryKind
+
+__all__ = [
+    "LABEL_DISTANCE",
+    "NetworkScale",
+    "QueryKind",
+    "anchor_headings",
+    "anchor_labels",
+    "anchor_points",
+    "encode_query",
+    "network_map",
+    "region_mask",
+]

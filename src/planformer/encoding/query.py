@@ -1,0 +1,139 @@
+"""Show a network where a path starts and ends."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from planformer.encoding.scale import NetworkScale, QueryKind
+from planformer.encoding.wavefront import wavefront
+from planformer.errors import InvalidParameter
+
+MARKER_SIGMA = 0.5
+"""Standard deviation of the soft start and goal markers in metres."""
+
+DISTANCE_SCALE = 10.0
+"""Geodesic distances enter as tanh(distance / 10 m)."""
+
+EXCESS_SCALE = 3.0
+"""A detour of this many coarse cells more than the shortest dims a cell to 1/e."""
+
+
+def encode_query(
+    pixels: NDArray[np.uint8], start: ArrayLike, goal: ArrayLike, scale: NetworkScale
+) -> NDArray[np.float32]:
+    """Encode start and goal for a network.
+
+    Args:
+        pixels: (H, W) uint8 network map as `network_map` returns it.
+        start: (x, y) or (x, y, yaw) in metres and rad in the map's local frame.
+        goal: As `start`.
+        scale: The network's scale.
+
+    Returns:
+        (scale.query_channels, H / query_stride, W / query_stride) float32.
+
+    Raises:
+        InvalidParameter: A state lacks the yaw that the network needs or is no state at all.
+    """
+    states = _state("start", start, scale), _state("goal", goal, scale)
+    if scale.query is QueryKind.SQUARE:
+        return _square_query(pixels.shape, states, scale)
+    markers = np.stack([_marker(pixels.shape, state, scale) for state in states])
+    free = _free_share(pixels, scale.query_stride)
+    channels = [markers, free[None]]
+    if scale.query is QueryKind.WAVEFRONT:
+        channels.insert(1, _distance_channels(free, states, scale))
+    if scale.headings:
+        channels.append(np.concatenate([_direction(s)[:, None, None] * m
+                                        for s, m in zip(states, markers, strict=True)]))
+    return np.concatenate(channels).astype(np.float32)
+
+
+def _state(name: str, value: ArrayLike, scale: NetworkScale) -> NDArray[np.float64]:
+    state = np.asarray(value, dtype=np.float64)
+    if state.shape not in ((2,), (3,)) or not np.isfinite(state).all():
+        raise InvalidParameter(f"{name} must be finite (x, y) or (x, y, yaw); got {value!r}")
+    if scale.headings and len(state) < 3:
+        raise InvalidParameter(f"this network needs a {name} with yaw; got {value!r}")
+    return state
+
+
+def _direction(state: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.array([np.cos(state[2]), np.sin(state[2])])
+
+
+def _square_query(
+    shape: tuple[int, ...], states: tuple[NDArray[np.float64], ...], scale: NetworkScale
+) -> NDArray[np.float32]:
+    """The paper's encoding, section IV-A: patches of -1 at the start and +1 at the goal."""
+    query = np.zeros((scale.query_channels, *shape), np.float32)
+    for state, sign in zip(states, (-1.0, 1.0), strict=True):  # where they overlap the goal wins
+        row, col = (round(v / scale.resolution) - scale.patch // 2 for v in state[1::-1])
+        window = (
+            slice(max(row, 0), max(row + scale.patch, 0)),
+            slice(max(col, 0), max(col + scale.patch, 0)),
+        )
+        query[0][window] = sign
+        if scale.headings:
+            query[(slice(1, None), *window)] = _direction(state)[:, None, None]
+    return query
+
+
+def _marker(
+    shape: tuple[int, ...], state: NDArray[np.float64], scale: NetworkScale
+) -> NDArray[np.float64]:
+    """(h, w) Gaussian of the distance to a point, as far as a query pixel can tell."""
+    y, x = (
+        (np.arange(size // scale.query_stride) + 0.5) * scale.query_resolution for size in shape
+    )
+    bell_x, bell_y = (
+        np.exp(-0.5 * ((axis - at) / MARKER_SIGMA) ** 2) for axis, at in ((x, state[0]), (y, state[1]))
+    )
+    return np.outer(bell_y, bell_x)
+
+
+def _free_share(pixels: NDArray[np.uint8], side: int) -> NDArray[np.float64]:
+    """(h, w) share of free pixels in each square of `side` pixels."""
+    height, width = pixels.shape
+    squares = pixels.reshape(height // side, side, width // side, side)
+    return 1.0 - squares.mean(axis=(1, 3))
+
+
+def _distance_channels(
+    free: NDArray[np.float64], states: tuple[NDArray[np.float64], ...], scale: NetworkScale
+) -> NDArray[np.float64]:
+    """(3, h, w): how far from the start, how far from the goal, how small the detour."""
+    cells = tuple(_cell(state, free.shape, scale) for state in states)
+    # Half blocked keeps walls of a cell's width closed and narrow passages open; where that cuts
+    # start from goal, any free pixel opens a cell.
+    from_start, from_goal = _distances(free < 0.5, cells)
+    if not np.isfinite(from_start[cells[1]]):
+        from_start, from_goal = _distances(free == 0.0, cells)
+    far = DISTANCE_SCALE / scale.query_resolution
+    via = from_start + from_goal
+    shortest = via.min()
+    excess = via - shortest if np.isfinite(shortest) else via
+    return np.stack(
+        [np.tanh(from_start / far), np.tanh(from_goal / far), np.exp(-excess / EXCESS_SCALE)]
+    )
+
+
+def _cell(
+    state: NDArray[np.float64], shape: tuple[int, ...], scale: NetworkScale
+) -> tuple[int, int]:
+    """(row, col) of the query pixel of a state, the nearest one for a state outside."""
+    row, col = (
+        int(np.clip(np.floor(v / scale.query_resolution), 0, size - 1))
+        for v, size in zip(state[1::-1], shape, strict=True)
+    )
+    return row, col
+
+
+def _distances(
+    blocked: NDArray[np.bool_], cells: tuple[tuple[int, int], ...]
+) -> list[NDArray[np.float64]]:
+    """Geodesic distances from each cell, all of which are opened."""
+    for cell in cells:
+        blocked[cell] = False
+    return [wavefront(blocked, cell).astype(np.float64) for cell in cells]

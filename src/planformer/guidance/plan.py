@@ -1,0 +1,113 @@
+"""The two calls that users make: propose a region, and plan inside it."""
+
+from __future__ import annotations
+
+import dataclasses
+import time
+from collections.abc import Sequence
+
+from planformer.errors import UnknownGuide
+from planformer.guidance.onnx import OnnxProposer, load_proposer
+from planformer.guidance.proposer import RegionProposer
+from planformer.guidance.region import Region
+from planformer.maps import OccupancyGrid
+from planformer.planning import CancelToken, PlanResult, Problem, SearchLimits, search
+from planformer.robots import Robot
+
+
+def plan(
+    grid: OccupancyGrid,
+    robot: Robot,
+    start: Sequence[float],
+    goal: Sequence[float],
+    *,
+    planner: str = "RRTstar",
+    guide: str | RegionProposer | None = "mpt",
+    threshold: float | None = None,
+    exploration: float = 0.0,
+    time_limit: float | None = 5.0,
+    target_length: float | None = None,
+    max_vertices: int | None = None,
+    seed: int | None = None,
+    keep_tree: bool = False,
+    cancel: CancelToken | None = None,
+) -> PlanResult:
+    """Plan a path, guided by a region that a network proposes.
+
+    An optimising planner (RRTstar, BITstar, ...) uses the whole time limit unless a target length
+    or a number of vertices ends it earlier.
+
+    Args:
+        grid: The map.
+        robot: A `PointRobot`, `DubinsCar` or `ReedsSheppCar`.
+        start: (x, y) or, for a car, (x, y, yaw) in the world frame, metres and rad.
+        goal: As the start.
+        planner: OMPL class name; `planner_names(robot)` lists them.
+        guide: Name of shipped weights, path of an .onnx file, a `RegionProposer`, or None for an
+            unguided planner.
+        threshold: Probability above which an anchor belongs to the region: 0.5 as in the paper, or
+            None to choose the one that connects start and goal in this query.
+        exploration: Share of samples drawn outside the region, from the whole map; 0 = region
+            only, 0.5 = the paper's alternation of exploitation and exploration (-EE).
+        time_limit: Wall-clock limit of the search in seconds, None for none.
+        target_length: Stop at the first path at most this long, in metres.
+        max_vertices: Stop when the tree holds this many states.
+        seed: 0 to 2**32 - 1 for a reproducible search (unless the time limit ends it).
+        keep_tree: Return the search tree, for pictures.
+        cancel: A `CancelToken` whose `cancel()` ends the search from another thread.
+
+    Returns:
+        The result. No path within the limits is a result as well: see its `status`.
+
+    Raises:
+        InvalidProblem: Start or goal is off the map or in collision (see its subclasses).
+        UnknownPlanner: No such planner for this robot. Likewise UnknownGuide.
+        InvalidParameter: Another value is out of range.
+    """
+    problem = Problem(grid, robot, tuple(start), tuple(goal))
+    limits = SearchLimits(time_limit, target_length, max_vertices)
+    region, seconds = None, 0.0
+    if guide is not None:
+        started = time.perf_counter()
+        region = resolve_guide(guide, threshold).propose(problem)
+        seconds = time.perf_counter() - started
+    result = search(
+        problem,
+        planner,
+        region=None if region is None else region.sampling(),
+        exploration=exploration,
+        limits=limits,
+        seed=seed,
+        keep_tree=keep_tree,
+        cancel=cancel,
+    )
+    return dataclasses.replace(result, region=region, proposal_seconds=seconds)
+
+
+def propose_region(
+    grid: OccupancyGrid,
+    robot: Robot,
+    start: Sequence[float],
+    goal: Sequence[float],
+    *,
+    guide: str | RegionProposer = "mpt",
+    threshold: float | None = None,
+) -> Region:
+    """Propose where on the map a good path runs, without planning; arguments as in `plan`."""
+    problem = Problem(grid, robot, tuple(start), tuple(goal))
+    return resolve_guide(guide, threshold).propose(problem)
+
+
+def resolve_guide(guide: str | RegionProposer, threshold: float | None = None) -> RegionProposer:
+    """Turn the name of shipped weights or the path of an .onnx file into a proposer.
+
+    Raises:
+        UnknownGuide: The name is unknown, or the object cannot propose regions.
+    """
+    if isinstance(guide, str):
+        return OnnxProposer(load_proposer(guide), threshold)
+    if not isinstance(guide, RegionProposer):
+        raise UnknownGuide(
+            f"guide must be a name, a RegionProposer or None; got {type(guide).__name__}"
+        )
+    return guide

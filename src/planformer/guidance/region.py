@@ -1,0 +1,178 @@
+"""The proposed region: anchor probabilities, and the part of the map that they select."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from planformer.encoding import NetworkScale, anchor_points
+from planformer.errors import InvalidParameter
+from planformer.maps import OccupancyGrid
+from planformer.planning import Problem, SamplingRegion, is_connected
+
+PAPER_THRESHOLD = 0.5
+"""The fixed threshold of Motion Planning Transformers (figure 3)."""
+
+RELAXATION = 0.5
+"""Anchors this much less likely than the weakest one needed to connect start and goal are kept, so
+that the shortest path and not just any path fits (benchmarks/threshold.py)."""
+
+
+@dataclass(frozen=True)
+class Region:
+    """The part of a map in which a good path is believed to run.
+
+    Attributes:
+        probability: (h, w) float32, one value an anchor point; row 0 = lowest y of the map.
+        anchors: (h, w, 2) float64 anchor points in metres in the world frame.
+        threshold: Anchors at least this probable are selected.
+        mask: (H, W) bool, the map's cells inside the patches of the selected anchors.
+        connected: Whether start and goal are connected within the region and free space.
+        patch: Side of an anchor's patch in metres.
+        headings: (h, w) float64 predicted headings in rad in the world frame, None in the plane.
+        cell_area: Area of a cell of the map in square metres.
+    """
+
+    probability: NDArray[np.float32]
+    anchors: NDArray[np.float64]
+    threshold: float
+    mask: NDArray[np.bool_]
+    connected: bool
+    patch: float
+    headings: NDArray[np.float64] | None
+    cell_area: float
+
+    @property
+    def selected(self) -> NDArray[np.bool_]:
+        """(h, w) bool, the anchors at or above the threshold."""
+        return np.asarray(self.probability >= self.threshold)
+
+    @property
+    def share(self) -> float:
+        """Share of the map's area inside the region, 0 to 1."""
+        return float(self.mask.mean())
+
+    def sampling(self) -> SamplingRegion | None:
+        """Where a planner draws samples; None if no anchor is selected."""
+        chosen = self.selected
+        if not chosen.any():
+            return None
+        return SamplingRegion(
+            anchors=self.anchors[chosen],
+            headings=None if self.headings is None else self.headings[chosen],
+            half_width=0.5 * self.patch,
+            # At least a cell: the patches of a padded map may lie beside it.
+            area=max(int(self.mask.sum()), 1) * self.cell_area,
+        )
+
+    def __repr__(self) -> str:
+        height, width = self.probability.shape
+        return (
+            f"Region({width} x {height} anchors, {int(self.selected.sum())} selected at "
+            f"threshold {self.threshold:.3g}, {self.share:.1%} of the map, "
+            f"{'connected' if self.connected else 'not connected'})"
+        )
+
+
+def make_region(
+    problem: Problem,
+    probability: NDArray[np.float32],
+    scale: NetworkScale,
+    *,
+    headings: NDArray[np.float64] | None = None,
+    threshold: float | None = None,
+) -> Region:
+    """Select anchors and lay their patches over the map.
+
+    Args:
+        problem: The problem that the probabilities were predicted for.
+        probability: (h, w) probability of each anchor.
+        scale: Scale of the network that predicted them.
+        headings: (h, w) headings in rad in the map's own frame, None in the plane.
+        threshold: Fixed threshold in [0, 1]; 0.5 is the paper's. None chooses it for this query:
+            the highest one at which start and goal are connected, relaxed.
+
+    Raises:
+        InvalidParameter: The threshold is out of range.
+    """
+    if threshold is not None and not 0.0 <= threshold <= 1.0:
+        raise InvalidParameter(f"threshold must be between 0 and 1 or None; got {threshold}")
+    height, width = probability.shape
+    local = anchor_points(height * scale.stride, width * scale.stride, scale)
+    cells = spread(probability, problem.grid, scale)
+    if threshold is None:
+        threshold = connecting_threshold(cells, problem) * RELAXATION
+    mask = cells >= threshold
+    frame = problem.grid.frame
+    return Region(
+        probability=probability,
+        anchors=frame.to_world(local),
+        threshold=threshold,
+        mask=mask,
+        connected=is_connected(mask & ~problem.blocked, problem),
+        patch=scale.patch * scale.resolution,
+        headings=None if headings is None else headings + frame.yaw,
+        cell_area=problem.grid.resolution**2,
+    )
+
+
+def spread(
+    probability: NDArray[np.float32], grid: OccupancyGrid, scale: NetworkScale
+) -> NDArray[np.float32]:
+    """The largest probability of the anchors whose patch covers each cell of the map.
+
+    Thresholding it gives the union of the selected anchors' patches at once for any threshold.
+
+    Args:
+        probability: (h, w) probability of each anchor.
+        grid: The map.
+        scale: The network's scale.
+
+    Returns:
+        (H, W) float32; cells in no patch are -1.
+    """
+    rows = _spread_axis(probability, grid.shape[0], grid.resolution, scale)
+    return np.ascontiguousarray(_spread_axis(rows.T, grid.shape[1], grid.resolution, scale).T)
+
+
+def _spread_axis(
+    values: NDArray[np.float32], cells: int, resolution: float, scale: NetworkScale
+) -> NDArray[np.float32]:
+    """`spread` along axis 0: (h, n) to (cells, n)."""
+    pixels = (np.arange(cells) + 0.5) * resolution / scale.resolution
+    half = scale.patch / 2
+    first = np.ceil((pixels - scale.anchor_offset - half) / scale.stride).astype(np.int64)
+    last = np.floor((pixels - scale.anchor_offset + half) / scale.stride).astype(np.int64)
+    result = np.full((cells, values.shape[1]), -1.0, np.float32)
+    for token in range(int((last - first).max()) + 1):
+        index = first + token
+        covered = (index <= last) & (index >= 0) & (index < len(values))
+        result[covered] = np.maximum(result[covered], values[index[covered]])
+    return result
+
+
+def connecting_threshold(cells: NDArray[np.float32], problem: Problem) -> float:
+    """The highest threshold at which start and goal are connected in region and free space.
+
+    Args:
+        cells: (H, W) probability of each cell as `spread` gives it.
+        problem: The problem.
+
+    Returns:
+        The threshold, or the paper's 0.5 where free space itself is disconnected.
+    """
+    free = ~problem.blocked
+    values = np.unique(cells[cells >= 0.0])
+    # Invariant of the bisection: connected at values[low], not connected at values[high].
+    low, high = 0, len(values)
+    if not is_connected((cells >= values[low]) & free, problem):
+        return PAPER_THRESHOLD
+    while high - low > 1:
+        middle = (low + high) // 2
+        if is_connected((cells >= values[middle]) & free, problem):
+            low = middle
+        else:
+            high = middle
+    return float(values[low])

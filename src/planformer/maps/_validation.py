@@ -1,0 +1,72 @@
+"""Checks of the values an occupancy grid is made of."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from planformer.errors import InvalidMap, InvalidParameter
+
+
+def as_mask(values: ArrayLike, name: str) -> NDArray[np.bool_]:
+    """A C-contiguous bool copy of a two-dimensional array of bool or of 0 and 1.
+
+    Raises:
+        InvalidMap: The array is something else.
+    """
+    array = np.asarray(values)
+    if array.ndim != 2 or array.size == 0:
+        raise InvalidMap(f"{name} must be a non-empty (H, W) array; got shape {array.shape}")
+    if array.dtype != np.bool_:
+        if array.dtype.kind not in "iuf" or not np.all((array == 0) | (array == 1)):
+            raise InvalidMap(
+                f"{name} must hold bool or 0 and 1 only; got other {array.dtype} values"
+            )
+        array = array != 0
+    return np.array(array, dtype=np.bool_, order="C")
+
+
+def checked_resolution(resolution: float) -> float:
+    """The resolution as a float.
+
+    Raises:
+        InvalidMap: It is not a finite positive number.
+    """
+    try:
+        value = float(resolution)
+    except (TypeError, ValueError):
+        raise InvalidMap(f"resolution must be a number of metres; got {resolution!r}") from None
+    if not (math.isfinite(value) and value > 0):
+        raise InvalidMap(f"resolution must be finite and > 0 m; got {resolution}")
+    return value
+
+
+def checked_origin(origin: Sequence[float]) -> tuple[float, float, float]:
+    """The origin as (x, y, yaw); yaw is 0 where none is given.
+
+    Raises:
+        InvalidMap: It is not two or three finite numbers.
+    """
+    try:
+        values = [float(v) for v in origin]
+    except (TypeError, ValueError):
+        values = []
+    if len(values) not in (2, 3) or not all(map(math.isfinite, values)):
+        raise InvalidMap(f"origin must be (x, y) or (x, y, yaw), all finite; got {origin!r}")
+    x, y, yaw = [*values, 0.0][:3]
+    return x, y, yaw
+
+
+def as_xy(xy: ArrayLike) -> NDArray[np.float64]:
+    """Points (..., 2) as float64.
+
+    Raises:
+        InvalidParameter: The last axis is not 2 long.
+    """
+    points = np.asarray(xy, dtype=np.float64)
+    if points.ndim == 0 or points.shape[-1] != 2:
+        raise InvalidParameter(f"points must have shape (..., 2); got {points.shape}")
+    return points

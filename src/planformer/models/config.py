@@ -1,0 +1,188 @@
+"""Configurations of the region proposal networks."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field, fields
+from typing import Any, TypeVar
+
+from planformer.encoding.scale import NetworkScale, QueryKind
+from planformer.errors import InvalidParameter
+
+
+@dataclass(frozen=True)
+class TransformerBody:
+    """The paper's network: convolutions to one token per metre, then a transformer encoder.
+
+    Johnson, Qureshi and Yip, Motion Planning Transformers, section IV-A; the numbers that the
+    paper leaves open are those of its published experiments.
+
+    Attributes:
+        width: Dimension d of a token.
+        layers: Encoder layers.
+        heads: Attention heads.
+        key_width: Dimension of a head's queries and keys.
+        value_width: Dimension of a head's values.
+        feed_forward: Hidden width of the MLP.
+        dropout: Probability of dropout.
+        table: Side H_max in tokens of the table of position encodings.
+        shift_positions: Shift the position encoding at random in training; otherwise it is fixed.
+        checkpointing: Recompute attention in the backward pass to save memory.
+
+    Raises:
+        InvalidParameter: A value is out of range.
+    """
+
+    width: int = 512
+    layers: int = 6
+    heads: int = 3
+    key_width: int = 512
+    value_width: int = 256
+    feed_forward: int = 1024
+    dropout: float = 0.1
+    table: int = 40
+    shift_positions: bool = True
+    checkpointing: bool = False
+
+    def __post_init__(self) -> None:
+        _require_positive(self, "layers heads key_width value_width feed_forward table")
+        if self.width < 2 or self.width % 2:
+            raise InvalidParameter(f"width must be even and >= 2; got {self.width}")
+        if not 0 <= self.dropout < 1:
+            raise InvalidParameter(f"dropout must be in [0, 1); got {self.dropout}")
+
+
+@dataclass(frozen=True)
+class CompactBody:
+    """A network for a CPU: convolutions mix neighbours, little attention mixes the rest.
+
+    Attributes:
+        width: Dimension of a token.
+        stem: Channels before the tokens, at the query's resolution.
+        groups: Groups of convolution blocks, each closed by an attention block.
+        blocks: Convolution blocks in a group.
+        heads: Attention heads.
+        expansion: Hidden width of an MLP over `width`.
+        window: Side in tokens of the windows that attention is confined to. A map of this size is
+            one window; beyond it the cost grows with the area, not with its square.
+
+    Raises:
+        InvalidParameter: A value is out of range.
+    """
+
+    width: int = 96
+    stem: int = 48
+    groups: int = 2
+    blocks: int = 4
+    heads: int = 3
+    expansion: int = 3
+    window: int = 24
+
+    def __post_init__(self) -> None:
+        _require_positive(self, "width stem groups blocks heads expansion window")
+        if self.width % (4 * self.heads):
+            raise InvalidParameter(
+                "width must be a multiple of 4 * heads, for rotary positions along two axes; got "
+                f"{self.width} for {self.heads} heads"
+            )
+
+
+_BODIES: dict[str, type[TransformerBody | CompactBody]] = {
+    "transformer": TransformerBody,
+    "compact": CompactBody,
+}
+
+
+@dataclass(frozen=True)
+class MPTConfig:
+    """A region proposal network: what it sees and what it is made of.
+
+    Attributes:
+        body: The architecture and its sizes.
+        query: How start and goal are encoded: "square" for a `TransformerBody`, "wavefront" or
+            "markers" for a `CompactBody`.
+        headings: Whether the network takes and predicts headings (SE(2)).
+
+    Raises:
+        InvalidParameter: The query does not fit the body.
+    """
+
+    body: TransformerBody | CompactBody = field(default_factory=CompactBody)
+    query: QueryKind = QueryKind.WAVEFRONT
+    headings: bool = False
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "query", self.scale.query)
+        if isinstance(self.body, TransformerBody) != (self.query is QueryKind.SQUARE):
+            raise InvalidParameter(
+                "a transformer body takes the query 'square', a compact one 'wavefront' or "
+                f"'markers'; got {type(self.body).__name__} with {self.query.value!r}"
+            )
+
+    @property
+    def scale(self) -> NetworkScale:
+        """The geometry of the network's input and output."""
+        transformer = isinstance(self.body, TransformerBody)
+        return NetworkScale(
+            anchor_offset=4 if transformer else 10,  # the centre of what a token's patch sees
+            query=self.query,
+            query_stride=1 if transformer else 5,
+            headings=self.headings,
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        """The configuration as JSON-compatible values."""
+        name = next(name for name, body in _BODIES.items() if isinstance(self.body, body))
+        body = {"architecture": name, **asdict(self.body)}
+        return {"body": body, "query": self.query.value, "headings": self.headings}
+
+    @classmethod
+    def from_dict(cls, values: Mapping[str, Any]) -> MPTConfig:
+        """The inverse of `to_dict`.
+
+        Raises:
+            InvalidParameter: A key is unknown or a value out of range.
+        """
+        values = dict(values)
+        body = dict(values.pop("body", {}))
+        name = body.pop("architecture", None)
+        if name not in _BODIES:
+            raise InvalidParameter(f"architecture must be one of {list(_BODIES)}; got {name!r}")
+        return _from_known(cls, {**values, "body": _from_known(_BODIES[name], body)})
+
+
+_T = TypeVar("_T")
+
+
+def _from_known(cls: type[_T], values: Mapping[str, Any]) -> _T:
+    """Build a dataclass, refusing keys that it does not have."""
+    known = [f.name for f in fields(cls)]  # type: ignore[arg-type]  # always a dataclass here
+    if unknown := sorted(set(values) - set(known)):
+        raise InvalidParameter(f"unknown configuration keys {unknown}; valid are {known}")
+    return cls(**values)
+
+
+def _require_positive(config: object, names: str) -> None:
+    for name in names.split():
+        if getattr(config, name) < 1:
+            raise InvalidParameter(f"{name} must be >= 1; got {getattr(config, name)}")
+
+
+PRESETS: dict[str, MPTConfig] = {
+    "paper": MPTConfig(TransformerBody(), QueryKind.SQUARE),
+    "paper-fixed-encoding": MPTConfig(TransformerBody(shift_positions=False), QueryKind.SQUARE),
+    "small": MPTConfig(),
+    "tiny": MPTConfig(CompactBody(width=48, stem=24, blocks=2, expansion=2)),
+    "dubins": MPTConfig(headings=True),
+}
+
+
+def preset(name: str) -> MPTConfig:
+    """A configuration by name.
+
+    Raises:
+        InvalidParameter: No preset has this name; the message lists them.
+    """
+    if name not in PRESETS:
+        raise InvalidParameter(f"preset must be one of {list(PRESETS)}; got {name!r}")
+    return PRESETS[name]

@@ -1,0 +1,19 @@
+"""What every region proposal network returns."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from torch import Tensor
+
+
+class Proposal(NamedTuple):
+    """Output of a network for (B, 1, H, W) maps, one value a token.
+
+    Attributes:
+        logits: (B, 1, h, w) log-odds that a good path runs through the token's patch.
+        heading: (B, 2, h, w) direction of travel (cos, sin), not normalised; None in the plane.
+    """
+
+    logits: Tensor
+    heading: Tensor | None

@@ -1,0 +1,27 @@
+"""Planning: problems, OMPL's planners on them, results and their check."""
+
+from planformer.planning.problem import Problem
+from planformer.planning.result import PlanResult, PlanStatus, Tree
+from planformer.planning.sampling import SamplingRegion
+from planformer.planning.search import (
+    CancelToken,
+    SearchLimits,
+    is_connected,
+    planner_names,
+    search,
+)
+from planformer.planning.validity import path_is_valid
+
+__all__ = [
+    "CancelToken",
+    "PlanResult",
+    "PlanStatus",
+    "Problem",
+    "SamplingRegion",
+    "SearchLimits",
+    "Tree",
+    "is_connected",
+    "path_is_valid",
+    "planner_names",
+    "search",
+]

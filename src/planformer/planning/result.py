@@ -1,0 +1,75 @@
+"""What a plan returns."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+class PlanStatus(str, Enum):
+    """Why a search ended. Whether it found a path is `PlanResult.solved`."""
+
+    FINISHED = "finished"
+    """The planner ended by itself; one that only looks for any path has found it."""
+    TARGET_REACHED = "target reached"
+    """A path at most as long as the target length was found."""
+    TIME_LIMIT = "time limit"
+    VERTEX_LIMIT = "vertex limit"
+    CANCELLED = "cancelled"
+    UNREACHABLE = "unreachable"
+    """No path exists: obstacles separate start and goal."""
+    INVALID_PATH = "invalid path"
+    """The planner's path failed the independent check and was withheld."""
+
+
+@dataclass(frozen=True)
+class Tree:
+    """The planner's search tree or roadmap.
+
+    Attributes:
+        vertices: (V, 2) or (V, 3) float64 states in the world frame.
+        edges: (E, 2) int64 indices (parent, child) into the vertices.
+    """
+
+    vertices: NDArray[np.float64]
+    edges: NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class PlanResult:
+    """The answer of `plan`; no path within the limits is an answer too.
+
+    Attributes:
+        solved: Whether a valid path was found.
+        status: Why the search ended.
+        path: (N, 2) or (N, 3) float64 states in the world frame, shape (0, 2) or (0, 3) without a
+            path. For a car these are dense poses: half a cell apart on arcs.
+        length: Path length in metres, infinite without a path.
+        vertices: Collision-free states in the search tree, the paper's measure of effort.
+        planning_seconds: Wall-clock seconds of the search, its setup and the path's check included.
+        proposal_seconds: Wall-clock seconds of the region proposal, 0 without a guide.
+        region: The proposed region (a `planformer.Region`), None without a guide.
+        tree: The search tree if it was asked for.
+    """
+
+    solved: bool
+    status: PlanStatus
+    path: NDArray[np.float64]
+    length: float
+    vertices: int
+    planning_seconds: float
+    proposal_seconds: float = 0.0
+    region: Any = None
+    tree: Tree | None = None
+
+    def __repr__(self) -> str:
+        outcome = f"length={self.length:.3f} m" if self.solved else "no path"
+        return (
+            f"PlanResult({outcome}, status={self.status.value!r}, vertices={self.vertices}, "
+            f"planning={self.planning_seconds * 1e3:.1f} ms, "
+            f"proposal={self.proposal_seconds * 1e3:.1f} ms)"
+        )

@@ -1,0 +1,52 @@
+"""Where a planner draws its samples: the shapes round a region's anchor points."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from planformer.errors import InvalidParameter
+
+ELLIPSE_ASPECT = 0.5
+"""Minor over major axis of the ellipses that a car's positions are drawn from."""
+YAW_DEVIATION = 0.35
+"""Standard deviation [rad] of a car's yaw round the predicted heading."""
+
+
+@dataclass(frozen=True)
+class SamplingRegion:
+    """Shapes of one size round anchor points, in the world frame.
+
+    Without headings the shapes are squares and a car's yaw is uniform; with headings they are
+    ellipses along them (Motion Planning Transformers, section III.B).
+
+    Attributes:
+        anchors: (K, 2) float64 anchor points in metres, K >= 1.
+        headings: (K,) float64 predicted headings in rad, or None.
+        half_width: Half the side of a square, or the major semi-axis of an ellipse, in metres.
+        area: Area of the union of the shapes in square metres.
+
+    Raises:
+        InvalidParameter: Empty or mismatched arrays, or a size that is not positive.
+    """
+
+    anchors: NDArray[np.float64]
+    headings: NDArray[np.float64] | None
+    half_width: float
+    area: float
+
+    def __post_init__(self) -> None:
+        if self.anchors.ndim != 2 or self.anchors.shape[1] != 2 or len(self.anchors) == 0:
+            raise InvalidParameter(
+                f"anchors must have shape (K, 2), K >= 1; got {self.anchors.shape}"
+            )
+        if self.headings is not None and self.headings.shape != (len(self.anchors),):
+            raise InvalidParameter(
+                f"headings must have shape ({len(self.anchors)},); got {self.headings.shape}"
+            )
+        if not (self.half_width > 0.0 and self.area > 0.0):
+            raise InvalidParameter(
+                f"half_width and area must be > 0; got {self.half_width} and {self.area}"
+            )

@@ -1,0 +1,205 @@
+"""Search: run one of OMPL's planners on a problem, inside a region or on the whole map."""
+
+from __future__ import annotations
+
+import math
+import time
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from planformer import _core
+from planformer.errors import InvalidParameter, UnknownPlanner
+from planformer.planning.problem import Problem
+from planformer.planning.result import PlanResult, PlanStatus, Tree
+from planformer.planning.sampling import ELLIPSE_ASPECT, YAW_DEVIATION, SamplingRegion
+from planformer.planning.validity import path_is_valid
+from planformer.robots import DubinsCar, Robot
+
+CancelToken = _core.Cancellation
+"""Ends a plan from another thread: pass it to `plan` and call its `cancel()`."""
+
+SST_GOAL_TOLERANCE = 0.25
+"""How close [m] to the goal a control-space planner has to drive."""
+
+_STATUS = {
+    _core.Outcome.FINISHED: PlanStatus.FINISHED,
+    _core.Outcome.TARGET: PlanStatus.TARGET_REACHED,
+    _core.Outcome.TIME_LIMIT: PlanStatus.TIME_LIMIT,
+    _core.Outcome.VERTEX_LIMIT: PlanStatus.VERTEX_LIMIT,
+    _core.Outcome.CANCELLED: PlanStatus.CANCELLED,
+}
+
+
+@dataclass(frozen=True)
+class SearchLimits:
+    """When a search ends; None means no limit.
+
+    Attributes:
+        seconds: Wall-clock limit.
+        target_length: Stop at the first path at most this long, in metres.
+        max_vertices: Stop when the tree holds this many states.
+
+    Raises:
+        InvalidParameter: A limit is not positive.
+    """
+
+    seconds: float | None = 5.0
+    target_length: float | None = None
+    max_vertices: int | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("seconds", "target_length", "max_vertices"):
+            value = getattr(self, name)
+            if value is not None and not value > 0:
+                raise InvalidParameter(f"{name} must be > 0 or None; got {value}")
+
+
+def planner_names(robot: Robot) -> list[str]:
+    """OMPL class names of the planners that this build has for a robot."""
+    return list(_core.planner_names(_model(robot)[0]))
+
+
+def search(
+    problem: Problem,
+    planner: str,
+    *,
+    region: SamplingRegion | None = None,
+    exploration: float = 0.0,
+    limits: SearchLimits | None = None,
+    seed: int | None = None,
+    keep_tree: bool = False,
+    cancel: _core.Cancellation | None = None,
+) -> PlanResult:
+    """Plan with one of OMPL's planners.
+
+    Args:
+        problem: The problem.
+        planner: OMPL class name, see `planner_names`.
+        region: Where samples are drawn; None for the whole map.
+        exploration: Share of the samples drawn from the whole map, 0 to 1.
+        limits: When to stop; five seconds by default.
+        seed: 0 to 2**32 - 1; the same seed gives the same result unless the time limit ends the
+            search. None draws one.
+        keep_tree: Return the search tree.
+        cancel: Ends the search when cancelled from another thread.
+
+    Returns:
+        The result; its path has passed `path_is_valid`.
+
+    Raises:
+        UnknownPlanner: The name is unknown or the planner does not fit the robot.
+        InvalidParameter: A value is out of range.
+    """
+    started = time.perf_counter()
+    names = planner_names(problem.robot)
+    if planner not in names:
+        raise UnknownPlanner(
+            f"unknown planner {planner!r} for a {type(problem.robot).__name__}; "
+            f"valid names: {', '.join(names)}"
+        )
+    if not 0.0 <= exploration <= 1.0:
+        raise InvalidParameter(f"exploration must be between 0 and 1; got {exploration}")
+    if not is_connected(~problem.blocked, problem):
+        return _no_path(problem, PlanStatus.UNREACHABLE, time.perf_counter() - started)
+    limits = limits or SearchLimits()
+    answer = _core.plan(
+        problem.blocked,
+        problem.grid.resolution,
+        _core.RobotModel(*_model(problem.robot)),
+        problem.local_start.tolist(),
+        problem.local_goal.tolist(),
+        planner=planner,
+        region=None if region is None else _core_region(region, problem),
+        exploration=exploration,
+        limits=_core.Limits(limits.seconds, limits.target_length, limits.max_vertices),
+        seed=_checked_seed(seed),
+        keep_tree=keep_tree,
+        goal_tolerance=SST_GOAL_TOLERANCE,
+        cancellation=cancel,
+    )
+    return _to_result(answer, problem, started, keep_tree=keep_tree)
+
+
+def is_connected(free: NDArray[np.bool_], problem: Problem) -> bool:
+    """Whether start and goal share a 4-connected component of (H, W) bool cells.
+
+    Four neighbours are exact: a motion through a corner touches the cells beside it.
+    """
+    _, labels = cv2.connectedComponents(free.view(np.uint8), connectivity=4, ltype=cv2.CV_32S)
+    (r0, c0), (r1, c1) = problem.grid.to_rc([problem.start[:2], problem.goal[:2]])
+    return bool(labels[r0, c0] != 0 and labels[r0, c0] == labels[r1, c1])
+
+
+def _model(robot: Robot) -> tuple[_core.RobotKind, float, bool, float, float]:
+    if isinstance(robot, DubinsCar):
+        return (
+            _core.RobotKind.CAR,
+            robot.turning_radius,
+            robot.reverses,
+            robot.wheelbase,
+            robot.max_speed,
+        )
+    return (_core.RobotKind.POINT, 0.0, False, 0.0, 0.0)
+
+
+def _core_region(region: SamplingRegion, problem: Problem) -> _core.Region:
+    headings = np.zeros(len(region.anchors)) if region.headings is None else region.headings
+    poses = problem.grid.frame.to_local(np.column_stack((region.anchors, headings)))
+    return _core.Region(
+        np.ascontiguousarray(poses),
+        has_heading=region.headings is not None,
+        half_width=region.half_width,
+        minor_axis=ELLIPSE_ASPECT * region.half_width,
+        yaw_deviation=YAW_DEVIATION,
+        area=region.area,
+    )
+
+
+def _checked_seed(seed: int | None) -> int:
+    if seed is None:
+        return int(np.random.default_rng().integers(1, 2**32))
+    if not 0 <= seed < 2**32:
+        raise InvalidParameter(f"seed must be between 0 and 2**32 - 1; got {seed}")
+    return int(seed)
+
+
+def _to_result(
+    answer: _core.Answer, problem: Problem, started: float, *, keep_tree: bool
+) -> PlanResult:
+    dimension, frame = problem.robot.state_dimension, problem.grid.frame
+    tree = None
+    if keep_tree:
+        vertices = frame.to_world(answer.tree_vertices)[:, :dimension]
+        tree = Tree(vertices, answer.tree_edges.astype(np.int64))
+    path = frame.to_world(answer.path)[:, :dimension]
+    status = _STATUS[answer.outcome]
+    if len(path):
+        # The rounding of the frame's rotation must not move what the caller gave.
+        path[0] = problem.start
+        if np.allclose(path[-1], problem.goal, rtol=0.0, atol=1e-9):
+            path[-1] = problem.goal
+        if not path_is_valid(problem.grid, problem.robot, path):
+            path, status = path[:0], PlanStatus.INVALID_PATH
+    return PlanResult(
+        solved=len(path) > 0,
+        status=status,
+        path=path,
+        length=float(answer.length) if len(path) else math.inf,
+        vertices=int(answer.vertices),
+        planning_seconds=time.perf_counter() - started,
+        tree=tree,
+    )
+
+
+def _no_path(problem: Problem, status: PlanStatus, seconds: float) -> PlanResult:
+    return PlanResult(
+        solved=False,
+        status=status,
+        path=np.empty((0, problem.robot.state_dimension)),
+        length=math.inf,
+        vertices=0,
+        planning_seconds=seconds,
+    )

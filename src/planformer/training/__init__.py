@@ -1,0 +1,7 @@
+"""Training of the region proposal networks."""
+
+from planformer.training.config import Recipe, TrainConfig
+from planformer.training.train import Progress, TrainResult, train
+from planformer.training.validation import validate
+
+__all__ = ["Progress", "Recipe", "TrainConfig", "TrainResult", "train", "validate"]

@@ -1,0 +1,111 @@
+"""Settings of a training run."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, fields
+from enum import Enum
+from typing import Any
+
+from planformer.errors import InvalidParameter
+
+
+class Recipe(str, Enum):
+    """How a network is optimised.
+
+    PAPER is the paper's: Adam with an inverse square root schedule after a warm-up, and a loss
+    over all positive anchors and as many random negative ones. COMPACT is AdamW with a cosine
+    schedule, and a loss over all anchors with the positive ones weighted up.
+    """
+
+    PAPER = "paper"
+    COMPACT = "compact"
+
+
+@dataclass(frozen=True)
+class TrainConfig:
+    """Settings of a training run.
+
+    The run ends after `steps` or after `seconds` of training, whichever comes first. The cosine
+    schedule follows the steps where they are given and the seconds otherwise; only with steps is
+    a run reproducible.
+
+    Attributes:
+        recipe: Loss and optimiser.
+        batch_size: Problems a step.
+        steps: Optimiser steps of the whole run; None = as many as the seconds allow.
+        seconds: Duration of the training, summed over all resumptions; None = no limit.
+        learning_rate: Peak learning rate of the compact recipe.
+        weight_decay: Weight decay of the compact recipe.
+        warmup_steps: Steps of rising learning rate; the paper used 3200 with its recipe.
+        positive_weight: Weight of positive anchors in the compact recipe; more connects more
+            starts with their goals, in larger regions.
+        augment: Flip, turn and reverse the problems at random.
+        bfloat16: Compute in bfloat16 where it is safe (autocast).
+        seed: Seed of the weights, the order of the problems and the augmentation.
+        workers: Processes that prepare problems; 0 = this one does.
+        threads: Threads that PyTorch may use on the CPU; None = its own choice.
+        device: PyTorch device to train on.
+        validate_every: Steps between validations.
+        validation_problems: Number of validation problems, evenly spread over the data set.
+        checkpoint_seconds: Seconds between checkpoints.
+
+    Raises:
+        InvalidParameter: A value is out of range, or the run would never end.
+    """
+
+    recipe: Recipe = Recipe.COMPACT
+    batch_size: int = 32
+    steps: int | None = None
+    seconds: float | None = None
+    learning_rate: float = 1.5e-3
+    weight_decay: float = 0.02
+    warmup_steps: int = 50
+    positive_weight: float = 2.0
+    augment: bool = True
+    bfloat16: bool = True
+    seed: int = 0
+    workers: int = 1
+    threads: int | None = None
+    device: str = "cpu"
+    validate_every: int = 200
+    validation_problems: int = 240
+    checkpoint_seconds: float = 120.0
+
+    def __post_init__(self) -> None:
+        try:
+            object.__setattr__(self, "recipe", Recipe(self.recipe))
+        except ValueError:
+            valid = ", ".join(recipe.value for recipe in Recipe)
+            raise InvalidParameter(f"recipe must be one of {valid}; got {self.recipe!r}") from None
+        if self.steps is None and self.seconds is None:
+            raise InvalidParameter("a training needs a number of steps or of seconds; got neither")
+        self._require_at_least(1, "batch_size steps validate_every validation_problems threads")
+        self._require_at_least(0, "warmup_steps seed workers weight_decay")
+        for name in ("seconds", "learning_rate", "positive_weight", "checkpoint_seconds"):
+            value = getattr(self, name)
+            if value is not None and not (math.isfinite(value) and value > 0):
+                raise InvalidParameter(f"{name} must be finite and > 0; got {value}")
+
+    def _require_at_least(self, least: int, names: str) -> None:
+        for name in names.split():
+            value = getattr(self, name)
+            if value is not None and not value >= least:
+                raise InvalidParameter(f"{name} must be >= {least}; got {value}")
+
+    def to_dict(self) -> dict[str, Any]:
+        """The settings as JSON-compatible values."""
+        return {**asdict(self), "recipe": self.recipe.value}
+
+    @classmethod
+    def from_dict(cls, values: Mapping[str, Any]) -> TrainConfig:
+        """The inverse of `to_dict`.
+
+        Raises:
+            InvalidParameter: A key is unknown or a value out of range.
+        """
+        known = [field.name for field in fields(cls)]
+        if unknown := sorted(set(values) - set(known)):
+            raise InvalidParameter(f"unknown training settings {unknown}; valid are {known}")
+        return cls(**values)

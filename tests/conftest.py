@@ -1,0 +1,14 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+
+@pytest.fixture(scope="session")
+def real_maps() -> Path:
+    """The folder of real maps that lies beside the checkout."""
+    folder = Path(__file__).resolve().parents[2] / "shared" / "maps"
+    if not folder.is_dir():
+        pytest.skip("the real maps (../shared/maps beside the checkout) are not here")
+    return folder

@@ -1,0 +1,222 @@
+"""Grid search of the compiled core against exhaustive references."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as hnp
+from scipy import ndimage
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import dijkstra
+
+from planformer import _core
+from planformer.geometry import polyline_length
+from planformer.maps.forest import generate_forest
+from planformer.maps.maze import generate_maze
+
+# Eighths of a cell off its centre: exact in floating point and never on a grid line.
+INSIDE_A_CELL = st.sampled_from([0.125, 0.375, 0.5, 0.625, 0.875])
+
+
+@st.composite
+def problems(draw):
+    """A grid with cells of 1 m, mostly free, and two points on it."""
+    shape = draw(st.tuples(st.integers(1, 12), st.integers(1, 12)))
+    levels = draw(hnp.arrays(np.uint8, shape, elements=st.integers(0, 9)))
+    blocked = levels < draw(st.integers(0, 6))
+    start, goal = (
+        [draw(st.integers(0, n - 1)) + draw(INSIDE_A_CELL) for n in shape[::-1]] for _ in range(2)
+    )
+    return blocked, np.array(start), np.array(goal)
+
+
+def touches(a, b, blocked):
+    """(N,) whether the closed segments a -> b, each (N, 2), touch a blocked closed cell.
+
+    Separating axes, exact for coordinates in eighths: a segment misses a square when their
+    bounding boxes are apart or the square is strictly on one side of the segment's line.
+    """
+    a, b = np.asarray(a)[:, None], np.asarray(b)[:, None]
+    low = np.argwhere(blocked)[None, :, ::-1].astype(float)
+    apart = (np.maximum(a, b) < low) | (np.minimum(a, b) > low + 1)
+    corners = low[..., None, :] + [(0, 0), (0, 1), (1, 0), (1, 1)]
+    along, to_corner = (b - a)[..., None, :], corners - a[..., None, :]
+    side = along[..., 0] * to_corner[..., 1] - along[..., 1] * to_corner[..., 0]
+    one_sided = (side > 0).all(-1) | (side < 0).all(-1)
+    return (~(apart.any(-1) | one_sided)).any(-1)
+
+
+def any_angle_length(blocked, start, goal):
+    """Shortest path over the visibility graph of all free cell centres, start and goal."""
+    points = np.vstack([start, goal, np.argwhere(~blocked)[:, ::-1] + 0.5])
+    i, j = np.triu_indices(len(points), 1)
+    seen = ~touches(points[i], points[j], blocked)
+    i, j = i[seen], j[seen]
+    # A zero would count as no edge.
+    lengths = np.maximum(np.hypot(*(points[i] - points[j]).T), 1e-12)
+    graph = coo_array((lengths, (i, j)), shape=(len(points),) * 2)
+    return dijkstra(graph, directed=False, indices=0)[1]
+
+
+def grid_distances(blocked, source):
+    """(h, w) distances over single steps by scipy's Dijkstra; nothing enters a blocked cell."""
+    height, width = blocked.shape
+    number = np.arange(blocked.size).reshape(blocked.shape)
+    edges = []
+    for (r, c), (dr, dc) in itertools.product(
+        np.ndindex(blocked.shape), itertools.product((-1, 0, 1), repeat=2)
+    ):
+        if (dr, dc) == (0, 0) or not (0 <= r + dr < height and 0 <= c + dc < width):
+            continue
+        leaves = not blocked[r, c] or (r, c) == source
+        if leaves and not (blocked[r + dr, c + dc] or blocked[r + dr, c] or blocked[r, c + dc]):
+            edges.append((number[r, c], number[r + dr, c + dc], math.hypot(dr, dc)))
+        elif leaves and 0 in (dr, dc) and not blocked[r + dr, c + dc]:
+            edges.append((number[r, c], number[r + dr, c + dc], 1.0))
+    i, j, cost = np.array(edges).reshape(-1, 3).T
+    graph = coo_array((cost, (i.astype(int), j.astype(int))), shape=(blocked.size,) * 2)
+    return dijkstra(graph, indices=number[source]).reshape(blocked.shape)
+
+
+def cell_of(point):
+    return math.floor(point[1]), math.floor(point[0])
+
+
+@settings(max_examples=300, deadline=None)
+@given(problems())
+def test_a_path_is_found_exactly_where_one_exists_and_is_valid(problem):
+    blocked, start, goal = problem
+    path = _core.lazy_theta(blocked, 1.0, start, goal)
+    labels, _ = ndimage.label(~blocked)
+    reachable = labels[cell_of(start)] == labels[cell_of(goal)] != 0
+    assert path.dtype == np.float64
+    assert path.shape[1] == 2
+    assert (len(path) >= 2) == reachable
+    if reachable:
+        np.testing.assert_array_equal(path[[0, -1]], [start, goal])
+        assert not touches(path[:-1], path[1:], blocked).any()
+
+
+@settings(max_examples=200, deadline=None)
+@given(problems())
+def test_the_length_lies_between_any_angle_optimum_and_steps_over_cells(problem):
+    blocked, start, goal = problem
+    path = _core.lazy_theta(blocked, 1.0, start, goal)
+    if len(path) == 0:
+        return
+    to_centres = sum(
+        math.dist(point, np.array(cell_of(point))[::-1] + 0.5) for point in (start, goal)
+    )
+    over_cells = _core.wavefront(blocked, *cell_of(start))[cell_of(goal)] + to_centres
+    assert math.dist(start, goal) <= any_angle_length(blocked, start, goal) + 1e-9
+    assert any_angle_length(blocked, start, goal) <= polyline_length(path) + 1e-9
+    assert polyline_length(path) <= over_cells * (1 + 1e-6) + 1e-9
+
+
+def test_the_length_is_close_to_the_any_angle_optimum():
+    rng = np.random.default_rng(7)
+    ratios = []
+    while len(ratios) < 60:
+        blocked = rng.random((14, 14)) < rng.uniform(0.05, 0.4)
+        start, goal = rng.integers(14, size=(2, 2)) + rng.integers(1, 8, (2, 2)) / 8
+        path = _core.lazy_theta(blocked, 1.0, start, goal)
+        if len(path) > 2:
+            ratios.append(polyline_length(path) / any_angle_length(blocked, start, goal))
+    assert np.mean(ratios) <= 1.005
+    assert max(ratios) <= 1.05
+
+
+@pytest.mark.parametrize("generate", [generate_forest, generate_maze])
+def test_paths_on_maps_are_valid_and_cannot_be_shortcut(generate):
+    grid = generate(3, width=8.0, height=8.0)
+    blocked = grid.blocked(0.1)
+    cells = np.argwhere(~blocked)
+    ends = (cells[[0, -1]][:, ::-1] + 0.5) * grid.resolution
+    path = _core.lazy_theta(blocked, grid.resolution, *ends) / grid.resolution
+    assert len(path) > 2
+    path = np.round(path * 8) / 8  # undoes the rounding of cells to metres and back
+    assert not touches(path[:-1], path[1:], blocked).any()
+    assert touches(path[:-2], path[2:], blocked).all()
+
+
+def test_start_equal_to_goal_gives_both():
+    path = _core.lazy_theta(np.zeros((3, 3), bool), 0.5, np.array([0.7, 0.2]), np.array([0.7, 0.2]))
+    np.testing.assert_array_equal(path, [[0.7, 0.2], [0.7, 0.2]])
+
+
+def test_one_cell_holds_start_and_goal():
+    start, goal = np.array([0.01, 0.02]), np.array([0.04, 0.03])
+    np.testing.assert_array_equal(
+        _core.lazy_theta(np.zeros((1, 1), bool), 0.05, start, goal), [start, goal]
+    )
+    assert _core.lazy_theta(np.ones((1, 1), bool), 0.05, start, goal).shape == (0, 2)
+
+
+def test_nothing_passes_between_diagonal_obstacles():
+    blocked = np.array([[False, True], [True, False]])
+    path = _core.lazy_theta(blocked, 1.0, np.array([0.5, 0.5]), np.array([1.5, 1.5]))
+    assert path.shape == (0, 2)
+
+
+@pytest.mark.parametrize("bad", [(-0.1, 0.5), (0.5, 3.0), (1.5, 1.5), (np.nan, 0.5), (0.5, np.inf)])
+def test_a_blocked_or_outside_end_is_unreachable(bad):
+    blocked = np.zeros((3, 3), bool)
+    blocked[1, 1] = True
+    fine = np.array([0.5, 0.5])
+    assert _core.lazy_theta(blocked, 1.0, np.array(bad), fine).shape == (0, 2)
+    assert _core.lazy_theta(blocked, 1.0, fine, np.array(bad)).shape == (0, 2)
+
+
+def test_other_array_types_and_layouts_give_the_same():
+    blocked = generate_maze(1, width=6.0, height=6.0).blocked(0.1)
+    ends = (np.argwhere(~blocked)[[0, -1]][:, ::-1] + 0.5) * 0.05
+    expected = _core.lazy_theta(blocked, 0.05, *ends)
+    for other in (blocked.astype(np.uint8) * 255, np.asfortranarray(blocked)):
+        np.testing.assert_array_equal(_core.lazy_theta(other, 0.05, *ends), expected)
+
+
+@pytest.mark.parametrize("resolution", [0.0, -1.0, math.nan])
+def test_a_resolution_that_is_not_positive_is_refused(resolution):
+    with pytest.raises(ValueError, match="resolution"):
+        _core.lazy_theta(np.zeros((2, 2), bool), resolution, np.zeros(2), np.zeros(2))
+
+
+def test_threads_do_not_disturb_each_other():
+    blocked = generate_maze(2, width=12.0, height=12.0).blocked(0.1)
+    cells = np.argwhere(~blocked)
+    pairs = (np.random.default_rng(0).choice(cells, (24, 2))[..., ::-1] + 0.5) * 0.05
+    alone = [_core.lazy_theta(blocked, 0.05, *pair) for pair in pairs]
+    with ThreadPoolExecutor(4) as pool:
+        together = list(pool.map(lambda pair: _core.lazy_theta(blocked, 0.05, *pair), pairs))
+    for one, other in zip(alone, together, strict=True):
+        np.testing.assert_array_equal(one, other)
+
+
+@settings(max_examples=200, deadline=None)
+@given(problems())
+def test_wavefront_equals_dijkstra_also_from_a_blocked_cell(problem):
+    blocked, start, _ = problem
+    source = cell_of(start)
+    distances = _core.wavefront(blocked, *source)
+    assert distances.dtype == np.float32
+    np.testing.assert_allclose(distances, grid_distances(blocked, source), rtol=1e-6)
+
+
+def test_wavefront_equals_dijkstra_on_a_large_maze():
+    blocked = generate_maze(4).occupied[::5, ::5]
+    source = tuple(int(i) for i in np.argwhere(~blocked)[100])
+    np.testing.assert_allclose(
+        _core.wavefront(blocked, *source), grid_distances(blocked, source), rtol=1e-6
+    )
+
+
+@pytest.mark.parametrize("source", [(-1, 0), (0, -1), (2, 0), (0, 3)])
+def test_a_wavefront_source_outside_the_grid_is_refused(source):
+    with pytest.raises(IndexError):
+        _core.wavefront(np.zeros((2, 3), bool), *source)
