@@ -60,7 +60,7 @@ bool python_interrupted() {
 Answer run_plan(const BlockedArray& blocked, double resolution, const RobotModel& robot,
                 const std::array<double, 3>& start, const std::array<double, 3>& goal,
                 const std::string& planner, std::shared_ptr<Region> region, double exploration,
-                const Limits& limits, std::uint32_t seed, bool keep_tree, double goal_tolerance,
+                const Limits& limits, std::uint32_t seed, bool keep_tree,
                 const Cancellation* cancellation) {
     Query query;
     query.free_space = free_space_of(blocked, resolution);
@@ -72,7 +72,6 @@ Answer run_plan(const BlockedArray& blocked, double resolution, const RobotModel
     query.limits = limits;
     query.seed = seed;
     query.keep_tree = keep_tree;
-    query.goal_tolerance = goal_tolerance;
     query.cancellation = cancellation;
     bool interrupted = false;
     query.interrupted = [&interrupted] { return interrupted = python_interrupted(); };
@@ -151,7 +150,7 @@ void register_planning(nb::module_& m) {
     m.def("plan", &run_plan, nb::arg("blocked"), nb::arg("resolution"), nb::arg("robot"),
           nb::arg("start"), nb::arg("goal"), nb::kw_only(), nb::arg("planner"),
           nb::arg("region") = nb::none(), nb::arg("exploration") = 0.0, nb::arg("limits"),
-          nb::arg("seed"), nb::arg("keep_tree") = false, nb::arg("goal_tolerance") = 0.0,
+          nb::arg("seed"), nb::arg("keep_tree") = false,
           nb::arg("cancellation") = nb::none(),
           "Plan in the map's local frame; see planformer.planning.search.");
     m.def("planner_names", &planner_names, nb::arg("robot"));

@@ -14,17 +14,10 @@ struct Word {
 
 using Words = std::array<Word, 6>;
 
-/// The same angle in [0, 2 pi).
+/// The same angle in [0, 2 pi].
 double positive_angle(double angle) {
     const double wrapped = wrap_angle(angle);
     return wrapped < 0.0 ? wrapped + kTwoPi : wrapped;
-}
-
-/// The same angle in [0, 2 pi), where rounding just below a whole turn gives 0. The snap moves a
-/// point at distance `lever` by at most kCurveSlack.
-double snapped_angle(double angle, double lever) {
-    const double positive = positive_angle(angle);
-    return (kTwoPi - positive) * lever <= kCurveSlack ? 0.0 : positive;
 }
 
 Word make_word(std::array<double, 3> turns, std::array<double, 3> lengths) {
@@ -35,23 +28,22 @@ Word make_word(std::array<double, 3> turns, std::array<double, 3> lengths) {
 // image: `side` is -1, and angles come in negated.
 
 /// Left, straight, left. Both turns add up to the goal's yaw, or to a whole turn more when the
-/// straight's heading `angle` is not between 0 and that yaw.
+/// straight's heading `angle` is not between 0 and that yaw. Where rounding alone puts it outside,
+/// the curve would gain a whole turn; it is moved back if that moves the end by no more than
+/// kCurveSlack. (The other words need no such care: where a turn of theirs vanishes, this word or
+/// its mirror image is as short.)
 Word solve_csc_same(double side, double distance, double angle, double yaw) {
-    const double total = snapped_angle(yaw, 1.0);
+    const double total = positive_angle(yaw);
     double first = positive_angle(angle);
-    double last = total - first;
-    if (last < 0.0) {
-        if (-last * distance <= kCurveSlack) {
+    if (first > total) {
+        if ((first - total) * distance <= kCurveSlack) {
             first = total;
-            last = 0.0;
         } else if ((kTwoPi - first) * distance <= kCurveSlack) {
             first = 0.0;
-            last = total;
-        } else {
-            last += kTwoPi;
         }
     }
-    return make_word({side, 0.0, side}, {first, distance, last});
+    const double whole_turn = first > total ? kTwoPi : 0.0;
+    return make_word({side, 0.0, side}, {first, distance, total - first + whole_turn});
 }
 
 /// Left, straight, right: the inner tangent of two circles, which exists from a distance of 2.
@@ -59,18 +51,17 @@ Word solve_csc_other(double side, const CentreOffset& centres, double yaw) {
     const double squared = centres.squared_distance();
     if (squared < 4.0 - kCurveSlack) return {};
     const double straight = std::sqrt(std::max(0.0, squared - 4.0));
-    const double angle = side * centres.angle() + std::atan2(2.0, straight);
-    const double first = snapped_angle(angle, std::sqrt(squared));
-    return make_word({side, 0.0, -side}, {first, straight, snapped_angle(first - yaw, 1.0)});
+    const double first = positive_angle(side * centres.angle() + std::atan2(2.0, straight));
+    return make_word({side, 0.0, -side}, {first, straight, positive_angle(first - yaw)});
 }
 
-/// Left, right, left with a middle turn of at least pi (shorter ones are never optimal): a circle
+/// Left, right, left with a middle turn of more than pi (shorter ones are never optimal): a circle
 /// that touches both others, which exists up to a distance of 4.
 Word solve_ccc(double side, double distance, double angle, double yaw) {
-    if (distance > 4.0 + kCurveSlack) return {};
-    const double half = kPi - std::asin(std::min(1.0, 0.25 * distance));
-    const double first = snapped_angle(angle + half, distance);
-    const double last = snapped_angle(yaw - first + 2.0 * half - kTwoPi, 1.0);
+    if (distance > 4.0) return {};
+    const double half = kPi - std::asin(0.25 * distance);
+    const double first = positive_angle(angle + half);
+    const double last = positive_angle(yaw - first + 2.0 * half - kTwoPi);
     return make_word({side, -side, side}, {first, 2.0 * half, last});
 }
 

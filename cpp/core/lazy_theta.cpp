@@ -13,12 +13,14 @@ namespace {
 
 using Index = std::uint32_t;
 
+/// What moving a vertex must gain at least, in cells, so that rounding never moves it for ever.
+constexpr double kLeastGain = 1e-4;
+
 struct Offset {
     int row;
     int col;
 };
 
-/// The straight neighbours come first: `is_step` needs the difference only.
 constexpr Offset kNeighbours[8] = {{0, 1},  {1, 0}, {0, -1}, {-1, 0},
                                    {1, 1}, {1, -1}, {-1, -1}, {-1, 1}};
 
@@ -232,6 +234,42 @@ std::vector<Point> shortcut(const FreeSpace& space, const std::vector<Point>& pa
     return kept;
 }
 
+/// The shortest way from `a` to `c` round a neighbour of `b`'s cell, or `b` when no neighbour
+/// gains more than rounding.
+Point step_towards_taut(const FreeSpace& space, Point a, Point b, Point c) {
+    const double res = space.resolution;
+    const double row = std::floor(b.y / res) + 0.5;
+    const double col = std::floor(b.x / res) + 0.5;
+    Point best = b;
+    double least = distance(a, b) + distance(b, c) - kLeastGain * res;
+    for (const Offset step : kNeighbours) {
+        const Point at{(col + step.col) * res, (row + step.row) * res};
+        const double length = distance(a, at) + distance(at, c);
+        if (length < least && sees(space, a, at) && sees(space, at, c)) {
+            least = length;
+            best = at;
+        }
+    }
+    return best;
+}
+
+/// Moves every inner vertex from cell to cell as long as that makes the path shorter; returns
+/// whether one moved.
+bool pull_taut(const FreeSpace& space, std::vector<Point>& path) {
+    bool moved = false;
+    for (std::size_t i = 1; i + 1 < path.size(); ++i) {
+        for (;;) {
+            const Point next = step_towards_taut(space, path[i - 1], path[i], path[i + 1]);
+            if (next.x == path[i].x && next.y == path[i].y) {
+                break;
+            }
+            path[i] = next;
+            moved = true;
+        }
+    }
+    return moved;
+}
+
 }  // namespace
 
 std::vector<Point> lazy_theta(const FreeSpace& space, Point start, Point goal) {
@@ -241,8 +279,14 @@ std::vector<Point> lazy_theta(const FreeSpace& space, Point start, Point goal) {
     if (sees(space, start, goal)) {
         return {start, goal};  // also keeps the two points' cells apart in the search below
     }
-    const std::vector<Point> path = Search(space, start, goal).run();
-    return path.empty() ? path : shortcut(space, path);
+    std::vector<Point> path = Search(space, start, goal).run();
+    if (path.empty()) {
+        return path;
+    }
+    do {
+        path = shortcut(space, path);
+    } while (pull_taut(space, path));
+    return path;
 }
 
 }  // namespace planformer

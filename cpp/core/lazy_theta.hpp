@@ -13,8 +13,9 @@ struct Point {
 };
 
 /// Any-angle shortest path on a blocked grid by Lazy Theta* (Nash, Koenig and Tovey, "Lazy
-/// Theta*: Any-Angle Path Planning and Path Length Analysis in 3D", AAAI 2010, fig. 5), followed
-/// by greedy line-of-sight shortcutting of its vertices.
+/// Theta*: Any-Angle Path Planning and Path Length Analysis in 3D", AAAI 2010, fig. 5), then
+/// tightened: greedy line-of-sight shortcuts, and vertices moved from cell to cell while the path
+/// gets shorter. That takes out the slack that the search's unproven parents leave.
 ///
 /// The search runs over the centres of the free cells; the cells of `start` and `goal` stand for
 /// exactly these points. Every segment of the result satisfies `FreeSpace::segment_is_free`.

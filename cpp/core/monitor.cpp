@@ -21,20 +21,16 @@ std::size_t count_vertices(const ob::Planner& planner) {
     return data.numVertices();
 }
 
-Monitor::Monitor(const Limits& limits, const ob::Planner& planner, const StateCount& states,
-                 const Cancellation* cancellation, std::function<bool()> interrupted)
+Monitor::Monitor(const Limits& limits, Clock::time_point started, const ob::Planner& planner,
+                 const StateCount& states, const Cancellation* cancellation, std::function<bool()> interrupted)
     : limits_(limits),
       planner_(planner),
       states_(states),
       cancellation_(cancellation),
       interrupted_(std::move(interrupted)),
-      start_(Clock::now()),
+      started_(started),
       next_vertex_check_(limits.vertices),
       thread_(std::this_thread::get_id()) {}
-
-double Monitor::seconds() const {
-    return std::chrono::duration<double>(Clock::now() - start_).count();
-}
 
 ob::PlannerTerminationCondition Monitor::condition() {
     return ob::PlannerTerminationCondition([this] { return should_stop(); });
@@ -42,7 +38,7 @@ ob::PlannerTerminationCondition Monitor::condition() {
 
 bool Monitor::should_stop() {
     if (reason_ != Outcome::kFinished) return true;
-    if (seconds() >= limits_.seconds) {
+    if (seconds_since(started_) >= limits_.seconds) {
         reason_ = Outcome::kTimeLimit;
     } else if (is_interrupted()) {
         reason_ = Outcome::kCancelled;
@@ -56,8 +52,8 @@ bool Monitor::is_interrupted() {
     if (cancellation_ != nullptr && cancellation_->is_cancelled()) return true;
     // PRM* also evaluates the condition in a thread of its own, which must not ask.
     if (!interrupted_ || std::this_thread::get_id() != thread_) return false;
-    if (seconds() < next_interrupt_check_) return false;
-    next_interrupt_check_ = seconds() + kInterruptPeriod;
+    if (seconds_since(started_) < next_interrupt_check_) return false;
+    next_interrupt_check_ = seconds_since(started_) + kInterruptPeriod;
     return interrupted_();
 }
 

@@ -14,6 +14,12 @@
 
 namespace planformer {
 
+using Clock = std::chrono::steady_clock;
+
+inline double seconds_since(Clock::time_point started) {
+    return std::chrono::duration<double>(Clock::now() - started).count();
+}
+
 /// When a search ends. Infinite and maximal values mean "no limit".
 struct Limits {
     double seconds = std::numeric_limits<double>::infinity();
@@ -79,18 +85,14 @@ private:
 /// Ends a search at its limits and remembers which of them it was.
 class Monitor {
 public:
-    using Clock = std::chrono::steady_clock;
-
-    /// `interrupted` is asked about every 20 ms from the planning thread; it may be empty.
-    Monitor(const Limits& limits, const ompl::base::Planner& planner, const StateCount& states,
+    /// The time limit counts from `started`; `interrupted` is asked about every 20 ms from the planning thread; it may be empty.
+    Monitor(const Limits& limits, Clock::time_point started, const ompl::base::Planner& planner, const StateCount& states,
             const Cancellation* cancellation, std::function<bool()> interrupted);
 
     ompl::base::PlannerTerminationCondition condition();
 
     /// Call after the search; `best_length` is infinite without a path.
     Outcome outcome(double best_length) const;
-
-    double seconds() const;
 
 private:
     bool should_stop();
@@ -102,7 +104,7 @@ private:
     const StateCount& states_;
     const Cancellation* cancellation_;
     std::function<bool()> interrupted_;
-    Clock::time_point start_;
+    Clock::time_point started_;
     double next_interrupt_check_ = 0.0;
     std::size_t next_vertex_check_;
     std::thread::id thread_;

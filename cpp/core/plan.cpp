@@ -90,6 +90,7 @@ std::vector<Pose> read_path(const og::PathGeometric& path, double step) {
 }
 
 Answer plan_geometric(const Query& query) {
+    const auto started = Clock::now();
     const Extent extent{query.free_space.extent_x(), query.free_space.extent_y()};
     StateCount states;  // outlives the planner and its states
     const auto si = make_space_information(query, extent, &states);
@@ -102,10 +103,9 @@ Answer plan_geometric(const Query& query) {
         return made;
     });
 
-    Monitor monitor(query.limits, *planner, states, query.cancellation, query.interrupted);
+    Monitor monitor(query.limits, started, *planner, states, query.cancellation, query.interrupted);
     planner->solve(monitor.condition());
     Answer answer;
-    answer.seconds = monitor.seconds();
     answer.length = std::numeric_limits<double>::infinity();
     if (problem->hasExactSolution()) {
         const auto& path = *problem->getSolutionPath()->as<og::PathGeometric>();
@@ -113,6 +113,7 @@ Answer plan_geometric(const Query& query) {
         answer.path = read_path(path, kArcStep * query.free_space.resolution);
     }
     answer.outcome = monitor.outcome(answer.length);
+    answer.seconds = seconds_since(started);
     answer.vertices = count_vertices(*planner);
     if (query.keep_tree) answer.tree = read_tree(*planner);
     return answer;

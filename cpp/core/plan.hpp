@@ -35,7 +35,6 @@ struct Query {
     Limits limits;
     std::uint32_t seed = 1;
     bool keep_tree = false;
-    double goal_tolerance = 0.0;  ///< [m], for control-space planning
     const Cancellation* cancellation = nullptr;
     std::function<bool()> interrupted;  ///< asked every 20 ms whether to give up
 };
@@ -51,7 +50,7 @@ struct Answer {
     std::vector<Pose> path;
     double length = 0.0;  ///< [m]
     std::size_t vertices = 0;
-    double seconds = 0.0;
+    double seconds = 0.0;  ///< of the search with its set-up, without counting and copying the tree
     Outcome outcome = Outcome::kFinished;
     Tree tree;
 };

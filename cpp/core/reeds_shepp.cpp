@@ -68,24 +68,17 @@ struct Best {
 
 // The paper solves each word for given signs and accepts it only if all signs come out as assumed;
 // rounding at a border can then reject both neighbours. Here every solution counts, whatever its
-// signs: turns are taken in [-pi, pi], a negative length is driven in reverse, and the curve reaches
-// the goal either way. It can only be as long as the best one or longer, so that the minimum over
-// all is the length of the best of the 48 words. All words start with a left turn; `Best` mirrors
-// them. `same` is the pair of left circles, `other` the start's left and the goal's right circle.
+// signs: turns are taken in [-pi, pi], a negative length is driven in reverse, and the curve
+// reaches the goal either way. It is at least as long as the best of the 48 words, which are among
+// these solutions, so that their minimum is the shortest length. All words start with a left turn
+// and `View` mirrors them. `same` is the pair of left circles, `other` the start's left and the
+// goal's right circle.
 
 /// C S C on two left circles (8.1); both directions of the straight.
 void offer_lsl(Best& best, const View& view, const Centres& same, double yaw) {
     for (const double sign : {1.0, -1.0}) {
-        double first = wrap_angle(sign > 0.0 ? same.angle : same.angle + kPi);
-        double last = wrap_angle(yaw - first);
-        if (std::abs(first) * same.distance <= kCurveSlack) {
-            first = 0.0;
-            last = yaw;
-        } else if (std::abs(last) * same.distance <= kCurveSlack) {
-            first = yaw;
-            last = 0.0;
-        }
-        best.offer(view, kLSL, {first, sign * same.distance, last});
+        const double first = wrap_angle(sign > 0.0 ? same.angle : same.angle + kPi);
+        best.offer(view, kLSL, {first, sign * same.distance, wrap_angle(yaw - first)});
     }
 }
 
@@ -101,8 +94,8 @@ void offer_lsr(Best& best, const View& view, const Centres& other, double yaw) {
 
 /// C|C|C, C|CC and CC|C (8.3, 8.4): a circle that touches both, on either side of them.
 void offer_lrl(Best& best, const View& view, const Centres& same, double yaw) {
-    if (same.distance > 4.0 + kCurveSlack) return;
-    const double half = std::asin(std::min(1.0, 0.25 * same.distance));
+    if (same.distance > 4.0) return;
+    const double half = std::asin(0.25 * same.distance);
     for (const double sign : {1.0, -1.0}) {
         const double first = wrap_angle(same.angle + (sign > 0.0 ? half : kPi - half));
         const double middle = 2.0 * sign * half;

@@ -13,6 +13,7 @@
 #include <limits>
 #include <memory>
 
+#include "core/dubins.hpp"
 #include "core/seeding.hpp"
 #include "core/validity.hpp"
 
@@ -25,6 +26,11 @@ namespace {
 
 constexpr double kStepSeconds = 0.1;
 constexpr unsigned int kMaxSteps = 20;
+constexpr double kSelectionRadius = 1.0;
+constexpr double kPruningRadius = 0.3;
+
+/// Longest curve that closes the gap to the goal pose [m].
+constexpr double kFinalCurve = 2.0;
 
 /// One control may turn the car by at most this much, so that states alone tell the arc's length.
 constexpr double kMaxTurn = 3.0;  // [rad], below pi
@@ -59,30 +65,53 @@ private:
     double wheelbase_;
 };
 
-/// Reached within a distance, and within the turn made over that distance.
+/// Reached by a state from which a short Dubins curve leads to the goal pose without collision.
+///
+/// Random controls cannot hit a pose. The curve consists of straight driving and full steering, so
+/// it is a sequence of controls as well.
 class CarGoal : public ob::GoalState {
 public:
-    CarGoal(const ob::SpaceInformationPtr& si, double turning_radius, double tolerance)
-        : ob::GoalState(si), turning_radius_(turning_radius) {
-        setThreshold(tolerance);
+    CarGoal(const ob::SpaceInformationPtr& si, const FreeSpace& free_space, double turning_radius)
+        : ob::GoalState(si), free_space_(free_space), turning_radius_(turning_radius) {}
+
+    Curve final_curve(const ob::State* state) const {
+        const ob::StateSpace& space = *si_->getStateSpace();
+        return dubins(read_state(space, state), goal(), turning_radius_);
     }
+
+    Pose goal() const { return read_state(*si_->getStateSpace(), getState()); }
 
     double distanceGoal(const ob::State* state) const override {
-        const ob::StateSpace& space = *si_->getStateSpace();
-        const Pose a = read_state(space, state);
-        const Pose b = read_state(space, getState());
-        const double turn = std::abs(wrap_angle(a.yaw - b.yaw));
-        return std::max(std::hypot(a.x - b.x, a.y - b.y), turning_radius_ * turn);
+        return final_curve(state).length();
     }
 
+    bool isSatisfied(const ob::State* state, double* distance) const override {
+        const Curve curve = final_curve(state);
+        *distance = curve.length();
+        if (curve.length() > kFinalCurve || !curve_is_free(free_space_, curve, goal())) return false;
+        last_final_length_ = curve.length();
+        return true;
+    }
+
+    bool isSatisfied(const ob::State* state) const override {
+        double distance = 0.0;
+        return isSatisfied(state, &distance);
+    }
+
+    /// Length of the final curve of the state that satisfied the goal last.
+    double last_final_length() const { return last_final_length_; }
+
 private:
+    FreeSpace free_space_;
     double turning_radius_;
+    mutable double last_final_length_ = 0.0;
 };
 
 /// The length of the arc between two states that one control joins.
 class DrivenLength : public ob::PathLengthOptimizationObjective {
 public:
-    using ob::PathLengthOptimizationObjective::PathLengthOptimizationObjective;
+    DrivenLength(const ob::SpaceInformationPtr& si, std::shared_ptr<const CarGoal> goal)
+        : ob::PathLengthOptimizationObjective(si), goal_(std::move(goal)) {}
 
     ob::Cost motionCost(const ob::State* from, const ob::State* to) const override {
         const ob::StateSpace& space = *si_->getStateSpace();
@@ -92,6 +121,14 @@ public:
         const double chord = std::hypot(b.x - a.x, b.y - a.y);
         return ob::Cost(std::abs(half) < 1e-6 ? chord : chord * half / std::sin(half));
     }
+
+    /// SST asks this of a motion right after it satisfied the goal; the final curve counts as well.
+    bool isSatisfied(ob::Cost cost) const override {
+        return cost.value() + goal_->last_final_length() <= getCostThreshold().value();
+    }
+
+private:
+    std::shared_ptr<const CarGoal> goal_;
 };
 
 ob::StateSpacePtr make_space(const Query& query, const Extent& extent, StateCount* count) {
@@ -150,17 +187,18 @@ ob::ProblemDefinitionPtr make_problem(const Query& query,
     write_state(*si->getStateSpace(), query.start, start.get());
     write_state(*si->getStateSpace(), query.goal, goal_state.get());
     problem->addStartState(start);
-    auto goal = std::make_shared<CarGoal>(si, query.robot.turning_radius, query.goal_tolerance);
+    const auto goal =
+        std::make_shared<CarGoal>(si, query.free_space, query.robot.turning_radius);
     goal->setState(goal_state);
     problem->setGoal(goal);
-    auto objective = std::make_shared<DrivenLength>(si);
+    auto objective = std::make_shared<DrivenLength>(si, goal);
     objective->setCostThreshold(ob::Cost(query.limits.target_length));
     problem->setOptimizationObjective(objective);
     return problem;
 }
 
 /// The driven poses, at the spacing at which they were checked.
-void read_path(const Query& query, const oc::PathControl& path, Answer* answer) {
+void read_path(const Query& query, const CarGoal& goal, oc::PathControl& path, Answer* answer) {
     const ob::StateSpace& space = *path.getSpaceInformation()->getStateSpace();
     const double spacing = kArcStep * query.free_space.resolution;
     answer->path.push_back(read_state(space, path.getState(0)));
@@ -176,30 +214,37 @@ void read_path(const Query& query, const oc::PathControl& path, Answer* answer) 
             append_motion(arc, pose, spacing, &answer->path);
         }
     }
+    const Curve last = goal.final_curve(path.getState(path.getStateCount() - 1));
+    answer->length += last.length();
+    append_motion(last, goal.goal(), spacing, &answer->path);
 }
 
 }  // namespace
 
 Answer plan_sst(const Query& query) {
+    const auto started = Clock::now();
     const Extent extent{query.free_space.extent_x(), query.free_space.extent_y()};
     StateCount states;  // outlives the planner and its states
     const auto si = make_space_information(query, extent, &states);
     const auto problem = make_problem(query, si);
     const auto planner = seeded(query.seed, [&] {
         auto made = std::make_shared<oc::SST>(si);
+        made->setSelectionRadius(kSelectionRadius);
+        made->setPruningRadius(kPruningRadius);
         made->setProblemDefinition(problem);
         made->setup();
         return made;
     });
-    Monitor monitor(query.limits, *planner, states, query.cancellation, query.interrupted);
+    Monitor monitor(query.limits, started, *planner, states, query.cancellation, query.interrupted);
     planner->solve(monitor.condition());
     Answer answer;
-    answer.seconds = monitor.seconds();
     answer.length = std::numeric_limits<double>::infinity();
     if (problem->hasExactSolution()) {
-        read_path(query, *problem->getSolutionPath()->as<oc::PathControl>(), &answer);
+        read_path(query, *problem->getGoal()->as<CarGoal>(),
+                  *problem->getSolutionPath()->as<oc::PathControl>(), &answer);
     }
     answer.outcome = monitor.outcome(answer.length);
+    answer.seconds = seconds_since(started);
     answer.vertices = count_vertices(*planner);
     if (query.keep_tree) answer.tree = read_tree(*planner);
     return answer;

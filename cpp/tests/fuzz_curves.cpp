@@ -1,5 +1,5 @@
-/// Fuzz test of the car's curves: `fuzz_curves PAIRS [SEED]`. Ends with 0 when every pair passes, with
-/// 1 and the offending pair otherwise.
+/// Fuzz test of the car's curves: `fuzz_curves PAIRS [SEED]`. Ends with 0 when every pair passes,
+/// with 1 and the offending pair otherwise.
 ///
 /// Lengths are checked to be shortest in three ways: against a second derivation of Dubins' words
 /// from circles and tangents; against brute force over the first turn (one pair in 1000); and
@@ -141,12 +141,16 @@ private:
     std::mt19937_64 bits_;
 };
 
-/// Slack for comparing lengths [m]. Where words meet, and for sideways motion, a length changes with
-/// the root of the offset, so that rounding of coordinates shows as its root.
+/// About ten times the rounding of a pair's coordinates [m].
+double rounding(const Pair& pair) {
+    return 1e-15 * std::max({std::abs(pair.from.x), std::abs(pair.from.y), std::abs(pair.to.x),
+                             std::abs(pair.to.y), pair.radius});
+}
+
+/// Slack for comparing lengths [m]. Where words meet, and for sideways motion, a length changes
+/// with the root of the offset, so that rounding of coordinates shows as its root.
 double length_slack(const Pair& pair) {
-    const double size = std::max({std::abs(pair.from.x), std::abs(pair.from.y),
-                                  std::abs(pair.to.x), std::abs(pair.to.y), pair.radius});
-    return pair.radius * (1e-8 + 20.0 * std::sqrt(1e-15 * size / pair.radius));
+    return pair.radius * (1e-8 + 20.0 * std::sqrt(rounding(pair) / pair.radius));
 }
 
 // ---- second derivation of Dubins' words ---------------------------------------------------------
@@ -292,20 +296,39 @@ void check_end(const Curve& curve, const Pair& pair) {
     require_at_most(euclid, curve.length() + 1e-7 * pair.radius, pair, "straight-line distance");
 }
 
+/// A solver's answer for one pair.
+struct Answer {
+    const Pair& pair;
+    Length measure;
+    double length;
+};
+
 /// The length stays within the bound that a way to `reached` gives. A goal within the solvers'
 /// slack of `reached` may miss the shorter curve that `reached` itself has.
-void check_bound(Length length, const Pair& pair, const Pose& reached, double bound,
-                 const char* what) {
+void check_bound(const Answer& answer, const Pose& reached, double bound, const char* what) {
+    const Pair& pair = answer.pair;
     const double limit = bound + length_slack(pair);
-    if (length(pair.from, pair.to, pair.radius) <= limit) return;
-    require_at_most(length(pair.from, reached, pair.radius), limit, pair, what);
+    if (answer.length <= limit) return;
+    require_at_most(answer.measure(pair.from, reached, pair.radius), limit, pair, what);
 }
 
-void check_piece(Solver solve, Length length, const Pair& pair, const Segment& piece) {
+void check_piece(const Answer& answer, Solver solve, const Segment& piece) {
+    const Pair& pair = answer.pair;
     const Pose moved = advance(pair.from, piece.curvature, piece.length);
     const Curve rest = solve(moved, pair.to, pair.radius);
-    check_bound(length, pair, rest.end(), std::abs(piece.length) + rest.length(),
+    check_bound(answer, rest.end(), std::abs(piece.length) + rest.length(),
                 "longer than a piece and the curve from its end");
+}
+
+/// Rounding of a goal that the curve reaches must not make the way longer, by a whole turn say.
+void check_rounded_goal(const Answer& answer, const Pose& end, Generator& random) {
+    const double offset = 2.0 * rounding(answer.pair);
+    const Pose rounded{end.x + random.uniform(-offset, offset),
+                       end.y + random.uniform(-offset, offset),
+                       wrap_angle(end.yaw + random.uniform(-2e-15, 2e-15))};
+    require_at_most(answer.measure(answer.pair.from, rounded, answer.pair.radius),
+                    answer.length + length_slack(answer.pair), answer.pair,
+                    "length after rounding the goal");
 }
 
 void check_motion(const Pose& a, const Pose& b, double driven, const Pair& pair) {
@@ -338,37 +361,36 @@ void check_walk(const Curve& curve, const Pair& pair, double step) {
     require_at_most(bends, curve.length() * (1.0 + 1e-9) + 1e-9, pair, "length of the arcs");
 }
 
-void check_dubins(const Pair& pair, Generator& random, bool thorough) {
-    const Curve curve = dubins(pair.from, pair.to, pair.radius);
+/// What holds for either solver; `thorough` adds a walk along the curve.
+Answer check_curve(Solver solve, Length measure, const Pair& pair, Generator& random,
+                   bool thorough) {
+    const Curve curve = solve(pair.from, pair.to, pair.radius);
     check_end(curve, pair);
     check_continuous(curve, pair, random);
-    const double apart = std::abs(dubins_length(pair.from, pair.to, pair.radius) - curve.length());
-    require_at_most(apart, 1e-12 * (pair.radius + curve.length()), pair, "dubins_length");
-    check_bound(dubins_length, pair, pair.to, second_derivation(pair), "longer than another word");
-    check_piece(dubins, dubins_length, pair, random.piece(pair.radius, false));
-    if (!thorough) return;
-    check_walk(curve, pair, 0.1 * pair.radius);
-    check_bound(dubins_length, pair, pair.to, brute_force(pair), "longer than brute force");
+    if (thorough) check_walk(curve, pair, 0.1 * pair.radius);
+    const double apart = std::abs(measure(pair.from, pair.to, pair.radius) - curve.length());
+    require_at_most(apart, 1e-12 * (pair.radius + curve.length()), pair, "length on its own");
+    const Answer answer{pair, measure, curve.length()};
+    check_rounded_goal(answer, curve.end(), random);
+    check_piece(answer, solve, random.piece(pair.radius, solve == reeds_shepp));
+    return answer;
+}
+
+void check_dubins(const Pair& pair, Generator& random, bool thorough) {
+    const Answer answer = check_curve(dubins, dubins_length, pair, random, thorough);
+    check_bound(answer, pair.to, second_derivation(pair), "longer than another word");
+    if (thorough) check_bound(answer, pair.to, brute_force(pair), "longer than brute force");
 }
 
 void check_reeds_shepp(const Pair& pair, Generator& random, bool thorough) {
-    const Curve curve = reeds_shepp(pair.from, pair.to, pair.radius);
-    check_end(curve, pair);
-    check_continuous(curve, pair, random);
-    const double length = reeds_shepp_length(pair.from, pair.to, pair.radius);
-    const double back = reeds_shepp(pair.to, pair.from, pair.radius).length();
-    const double slack = 1e-12 * (pair.radius + curve.length());
-    require_at_most(std::abs(length - curve.length()), slack, pair, "reeds_shepp_length");
-    require_at_most(std::abs(back - curve.length()), slack, pair, "the way back is longer");
-    check_piece(reeds_shepp, reeds_shepp_length, pair, random.piece(pair.radius, true));
-    if (thorough) check_walk(curve, pair, 0.1 * pair.radius);
-
-    const Curve forward = dubins(pair.from, pair.to, pair.radius);
-    check_bound(reeds_shepp_length, pair, forward.end(), forward.length(), "longer than Dubins");
-    const Pair swapped{pair.to, pair.from, pair.radius};
-    const Curve reverse = dubins(pair.to, pair.from, pair.radius);
-    check_bound(reeds_shepp_length, swapped, reverse.end(), reverse.length(),
-                "longer than Dubins back");
+    const Answer answer = check_curve(reeds_shepp, reeds_shepp_length, pair, random, thorough);
+    const double back = reeds_shepp_length(pair.to, pair.from, pair.radius);
+    require_at_most(std::abs(back - answer.length), 1e-12 * (pair.radius + back), pair,
+                    "the way back differs");
+    const double forward = std::min(dubins_length(pair.from, pair.to, pair.radius),
+                                    dubins_length(pair.to, pair.from, pair.radius));
+    require_at_most(answer.length, forward + 1e-8 * pair.radius + 1e-12 * forward, pair,
+                    "longer than Dubins");
 }
 
 /// Poses no planner should ask for have an answer too.

@@ -5,60 +5,52 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field, fields
 from pathlib import Path
 from typing import Any
 
-from planformer.encoding import NetworkScale
-from planformer.errors import InvalidParameter, InvalidWeights
-from planformer.models import MPTConfig, replace_file
+from planformer.models import PRESETS, MPTConfig, replace_file
 
 CARD_VERSION = 1
+"""Version of the card's format; raised when older readers would misread it."""
 
 
-@dataclass(frozen=True)
-class WeightsCard:
-    """Description of an .onnx file.
+def write_card(
+    weights: Path,
+    network: MPTConfig,
+    *,
+    name: str,
+    training: Mapping[str, Any],
+    accuracy: Mapping[str, Mapping[str, float]],
+) -> Path:
+    """Describe an .onnx file in a JSON file of the same name beside it, replaced as a whole.
 
-    Attributes:
-        name: Name of the weights.
+    Its keys: ``version`` of the format; ``name``; ``sha256`` of the .onnx file; ``robot``,
+    "point" or "dubins"; ``preset``, null for a network of one's own; ``network``, see
+    `MPTConfig.to_dict`; ``scale``, read by `NetworkScale.from_dict`; ``training`` and
+    ``accuracy`` as given.
+
+    Args:
+        weights: The .onnx file.
         network: Configuration of the network.
-        scale: Geometry of its input and output.
-        training: Settings of the training and of its data set, steps taken.
+        name: Name of the weights.
+        training: Settings of the training, its data and its steps.
         accuracy: Validation metrics by kind of map.
-        sha256: Hash of the .onnx file, hexadecimal.
-        version: Version of the card's format.
 
-    Raises:
-        InvalidWeights: The version is not supported.
+    Returns:
+        The card's path.
     """
-
-    name: str
-    network: MPTConfig
-    scale: NetworkScale
-    sha256: str
-    training: dict[str, Any] = field(default_factory=dict)
-    accuracy: dict[str, dict[str, float]] = field(default_factory=dict)
-    version: int = CARD_VERSION
-
-    def __post_init__(self) -> None:
-        if self.version != CARD_VERSION:
-            raise InvalidWeights(
-                f"card version {self.version} is not supported; this release reads {CARD_VERSION}"
-            )
-
-    @property
-    def robot(self) -> str:
-        """Kind of robot: "point" in the plane, "dubins" with headings."""
-        return "dubins" if self.scale.headings else "point"
-
-    def write(self, path: Path) -> None:
-        """Write the card as JSON; the file is replaced as a whole."""
-        values = {
-            **{f.name: getattr(self, f.name) for f in fields(self)},
-            "robot": self.robot,
-            "network": self.network.to_dict(),
-            "scale": self.scale.to_dict(),
-        }
-        text = json.dumps(values, indent=2) + "\n"
-        replace_file(path, lambda file: file.write(text.encode()))
+    card = {
+        "version": CARD_VERSION,
+        "name": name,
+        "sha256": hashlib.sha256(weights.read_bytes()).hexdigest(),
+        "robot": "dubins" if network.headings else "point",
+        "preset": next((known for known, made in PRESETS.items() if made == network), None),
+        "network": network.to_dict(),
+        "scale": network.scale.to_dict(),
+        "training": dict(training),
+        "accuracy": {kind: dict(values) for kind, values in accuracy.items()},
+    }
+    path = weights.with_suffix(".json")
+    text = json.dumps(card, indent=2, allow_nan=False) + "\n"
+    replace_file(path, lambda file: file.write(text.encode()))
+    return path

@@ -7,7 +7,7 @@ import time
 from collections.abc import Sequence
 
 from planformer.errors import UnknownGuide
-from planformer.guidance.onnx import OnnxProposer, load_proposer
+from planformer.guidance.onnx import OnnxProposer, load_network
 from planformer.guidance.proposer import RegionProposer
 from planformer.guidance.region import Region
 from planformer.maps import OccupancyGrid
@@ -105,7 +105,7 @@ def resolve_guide(guide: str | RegionProposer, threshold: float | None = None) -
         UnknownGuide: The name is unknown, or the object cannot propose regions.
     """
     if isinstance(guide, str):
-        return OnnxProposer(load_proposer(guide), threshold)
+        return OnnxProposer(load_network(guide), threshold)
     if not isinstance(guide, RegionProposer):
         raise UnknownGuide(
             f"guide must be a name, a RegionProposer or None; got {type(guide).__name__}"

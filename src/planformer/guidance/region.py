@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planformer.encoding import NetworkScale, anchor_points
-from planformer.errors import InvalidParameter
 from planformer.maps import OccupancyGrid
 from planformer.planning import Problem, SamplingRegion, is_connected
 
@@ -94,11 +93,7 @@ def make_region(
         threshold: Fixed threshold in [0, 1]; 0.5 is the paper's. None chooses it for this query:
             the highest one at which start and goal are connected, relaxed.
 
-    Raises:
-        InvalidParameter: The threshold is out of range.
     """
-    if threshold is not None and not 0.0 <= threshold <= 1.0:
-        raise InvalidParameter(f"threshold must be between 0 and 1 or None; got {threshold}")
     height, width = probability.shape
     local = anchor_points(height * scale.stride, width * scale.stride, scale)
     cells = spread(probability, problem.grid, scale)

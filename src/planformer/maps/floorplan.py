@@ -190,9 +190,7 @@ def _shared_walls(rooms: Sequence[Room]) -> list[_SharedWall]:
         end = np.minimum(across_high[:, None], across_high)
         touching = np.abs(high[:, None] - low) < _TOUCHING
         for i, j in np.argwhere(touching & (end - start >= _DOOR_WIDTH[1] + 2 * WALL)).tolist():
-            walls.append(
-                _SharedWall((i, j), is_vertical, float(high[i]), start[i, j], end[i, j])
-            )
+            walls.append(_SharedWall((i, j), is_vertical, float(high[i]), start[i, j], end[i, j]))
     return walls
 
 

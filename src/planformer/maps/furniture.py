@@ -11,11 +11,15 @@ import numpy as np
 from planformer.maps.floorplan import Door, FloorPlan, Rect, Room
 
 _AISLE = 0.8
-"""Way left free between pieces of furniture in metres."""
+"""Way left free round furniture in the middle of a room in metres."""
+_GAP = 0.65
+"""Least gap between pieces of furniture in metres: no corner of a room is shut off."""
+_CHAIR_ZONE = 0.5
 _DOOR_ZONE = 1.0
 _LEAF = 0.06
+_LEAF_SHARE = 0.35
 _LEG = 0.08
-_ATTEMPTS = 4
+_ATTEMPTS = 6
 
 
 @dataclass(frozen=True)
@@ -75,15 +79,15 @@ class _Floor:
             # Corners are popular.
             start = (span - length) * float(np.clip(self.rng.uniform(-0.3, 1.3), 0.0, 1.0))
             rect = _along_wall(room, side, start, length, depth)
-            in_front = _along_wall(room, side, start, length, depth + _AISLE)
-            if self.is_free(in_front, 0.0):
-                self.taken.append(rect)
+            if self.take(rect, _GAP):
                 return rect
         return None
 
     def in_the_middle(self, length: float, depth: float) -> Rect | None:
         """Reserve a place with an aisle all round."""
-        width, height = (length, depth) if self.inside.width > self.inside.height else (depth, length)
+        width, height = (
+            (length, depth) if self.inside.width > self.inside.height else (depth, length)
+        )
         room = self.inside.grown(-_AISLE)
         if room.width < width or room.height < height:
             return None
@@ -109,7 +113,8 @@ def furnish(rng: np.random.Generator, plan: FloorPlan) -> list[Item]:
             continue
         doors = [door for door in plan.doors if index in door.rooms]
         floor = _Floor(rng, room.inside, [_door_zone(door) for door in doors])
-        items += [leaf for door in doors for leaf in _open_leaf(rng, door, index)]
+        if not room.is_corridor:  # a leaf that opened into a corridor would close it
+            _open_leaves(floor, doors, index)
         for arrange in _choose_arrangements(rng, room):
             arrange(floor)
         items += floor.items
@@ -123,11 +128,23 @@ def _choose_arrangements(
         return (_cabinets,)
     area = room.inside.area
     if area < 8.0:
-        kinds: tuple[tuple[Callable[[_Floor], None], ...], ...] = ((_shelves,), (_cabinets,))
+        kinds: tuple[tuple[Callable[[_Floor], None], ...], ...] = ((_shelves,), (_desks, _cabinets))
     elif area < 20.0:
-        kinds = ((_desks, _shelves), (_desks,), (_meeting, _cabinets), (_bedroom,), (_storage,))
+        kinds = (
+            (_desks, _shelves),
+            (_shelves, _desks),
+            (_meeting, _cabinets),
+            (_bedroom, _shelves),
+            (_storage,),
+        )
     else:
-        kinds = ((_desks, _islands), (_meeting, _shelves), (_living,), (_storage,), (_islands,))
+        kinds = (
+            (_islands, _desks, _shelves),
+            (_meeting, _shelves, _cabinets),
+            (_living, _cabinets),
+            (_storage, _cabinets),
+            (_desks, _islands),
+        )
     return kinds[rng.integers(len(kinds))]
 
 
@@ -139,22 +156,33 @@ def _door_zone(door: Door) -> Rect:
     return zone.transposed() if door.is_vertical else zone
 
 
-def _open_leaf(rng: np.random.Generator, door: Door, room: int) -> list[Item]:
-    """The leaf of a door that stands open into one of its two rooms, sometimes."""
-    if not door.has_leaf or room != door.rooms[0] or rng.random() < 0.55:
-        return []
+def _open_leaves(floor: _Floor, doors: Sequence[Door], room: int) -> None:
+    """The leaves of some doors, standing open into the room clear of its other doors."""
+    for door in doors:
+        if door.has_leaf and floor.rng.random() < _LEAF_SHARE:
+            leaf = _open_leaf(floor.rng, door, into=1.0 if room == door.rooms[1] else -1.0)
+            x, y = leaf.centre
+            half = leaf.size[0] / 2
+            swept = Rect(x - half, y - half, x + half, y + half)
+            others = (_door_zone(other) for other in doors if other is not door)
+            if not any(swept.overlaps(zone) for zone in others):
+                floor.items.append(leaf)
+                floor.kept_free.append(swept.grown(_GAP))
+
+
+def _open_leaf(rng: np.random.Generator, door: Door, into: float) -> Item:
+    """A leaf open into the room above or right of the wall (1), or below or left of it (-1)."""
     opening = door.opening.transposed() if door.is_vertical else door.opening
     width, y = opening.width, (opening.y0 + opening.y1) / 2
-    into = 1.0 if rng.random() < 0.5 else -1.0
     at_start = rng.random() < 0.5
     hinge = opening.x0 if at_start else opening.x1
-    swing = rng.uniform(math.radians(75), math.radians(115))
+    swing = rng.uniform(math.radians(85), math.radians(120))
     angle = into * (swing if at_start else math.pi - swing)
     x = hinge + 0.5 * width * math.cos(angle)
     y += 0.5 * width * math.sin(angle)
     if door.is_vertical:
         x, y, angle = y, x, math.pi / 2 - angle
-    return [Item((x, y), (width, _LEAF), angle)]
+    return Item((x, y), (width, _LEAF), angle)
 
 
 def _along_wall(room: Rect, side: int, start: float, length: float, depth: float) -> Rect:
@@ -186,11 +214,14 @@ def _cabinets(floor: _Floor) -> None:
 
 def _desks(floor: _Floor) -> None:
     """Desks along the walls, each with a chair."""
-    for side in floor.rng.integers(0, 4, 1 + int(floor.inside.area / 7)).tolist():
-        rect = floor.against_wall(side, floor.rng.uniform(1.2, 1.8), floor.rng.uniform(0.7, 0.8))
-        if rect is not None:
-            _add_table(floor, rect)
-            _add_chair(floor, _in_front(floor.inside, rect, side, 0.3))
+    for side in floor.rng.integers(0, 4, 1 + int(floor.inside.area / 5)).tolist():
+        depth = floor.rng.uniform(0.7, 0.8)
+        place = floor.against_wall(side, floor.rng.uniform(1.2, 1.8), depth + _CHAIR_ZONE)
+        if place is not None:
+            room = place.transposed() if side % 2 else place
+            desk = _along_wall(place, side, 0.0, room.width, depth)
+            _add_table(floor, desk)
+            _add_chair(floor, _in_front(desk, side, 0.2))
 
 
 def _meeting(floor: _Floor) -> None:
@@ -200,7 +231,9 @@ def _meeting(floor: _Floor) -> None:
     shortest = min(room.width, room.height) - 2 * _AISLE - 1.2
     if longest < 1.2 or shortest < 0.7:
         return
-    place = floor.in_the_middle(min(longest, floor.rng.uniform(1.8, 5.0)) + 1.2, min(shortest, 1.3) + 1.2)
+    place = floor.in_the_middle(
+        min(longest, floor.rng.uniform(1.8, 5.0)) + 1.2, min(shortest, 1.3) + 1.2
+    )
     if place is None:
         return
     table = place.grown(-0.6)
@@ -264,7 +297,7 @@ def _living(floor: _Floor) -> None:
     _shelves(floor)
 
 
-def _in_front(room: Rect, rect: Rect, side: int, distance: float) -> tuple[float, float]:
+def _in_front(rect: Rect, side: int, distance: float) -> tuple[float, float]:
     """The point `distance` in front of furniture that stands against a wall."""
     x, y = rect.centre
     return (

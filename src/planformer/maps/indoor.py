@@ -20,7 +20,8 @@ SMALLEST = 6.0
 COARSEST = 0.1
 _ROTATED = 0.4
 _LARGEST_ROTATION = math.radians(3.0)
-_LARGEST_MARGIN = 0.06
+_LARGEST_MARGIN = 0.08
+_WINDOW = 0.12
 
 
 def generate_indoor(
@@ -32,10 +33,11 @@ def generate_indoor(
 ) -> OccupancyGrid:
     """Generate an indoor map that looks as if a robot had made it.
 
-    Rooms round corridors (recursive subdivision), walls of 0.15 m, doors of 0.9 to 1.0 m, furniture,
-    and what a laser scanner makes of it: ragged surfaces a cell or two thick, speckles, unknown
-    space behind walls, inside cupboards and in rooms never entered, the whole sometimes turned by
-    up to 3 degrees. Unknown cells are occupied. All rooms are connected.
+    Rooms round corridors (recursive subdivision), walls of 0.15 m, doors of 0.9 to 1.0 m,
+    furniture, and what a laser scanner makes of it: ragged surfaces a cell or two thick, speckles,
+    rays through windows, unknown space behind walls, inside cupboards and in rooms never entered,
+    the whole sometimes turned by up to 3 degrees. Unknown cells are occupied. All rooms entered
+    are connected.
 
     Args:
         seed: Integer >= 0 or NumPy Generator; the same seed gives the same map.
@@ -60,6 +62,9 @@ def generate_indoor(
     plan = generate_floor_plan(rng, *building)
     free = _draw(plan, furnish(rng, plan), frame, shape, resolution)
     occupied, unknown = observe(rng, free, resolution)
+    for ray in _rays_through_windows(rng, plan, building):
+        for cells in (occupied, unknown):
+            _fill(cells, resolution, frame, item=ray, value=False)
     return OccupancyGrid(occupied, resolution, unknown=unknown)
 
 
@@ -74,6 +79,36 @@ def _place_building(
     x, y = x * shrink, y * shrink
     centred = Frame(width / 2, height / 2, yaw).to_world((-x / 2, -y / 2))
     return Frame(centred[0], centred[1], yaw), (x, y)
+
+
+def _rays_through_windows(
+    rng: np.random.Generator, plan: FloorPlan, building: tuple[float, float]
+) -> list[Item]:
+    """Thin rays that left the building through windows, as laser beams do."""
+    rays = []
+    for room, seen in zip(plan.rooms, plan.visited, strict=True):
+        rect = room.rect
+        for side, at_edge in (
+            (-1.0, rect.y0 == 0.0),
+            (1.0, math.isclose(rect.y1, building[1])),
+        ):
+            if seen and at_edge and rng.random() < _WINDOW:
+                y = rect.y0 if side < 0 else rect.y1
+                rays += _fan(rng, rect.x0 + rng.uniform(0.3, 0.7) * rect.width, y, side)
+    return rays
+
+
+def _fan(rng: np.random.Generator, x: float, y: float, side: float) -> list[Item]:
+    """Rays from a scanner inside through a window about (x, y), above (side 1) or below (-1)."""
+    scanner_x, scanner_y = x + rng.uniform(-1.0, 1.0), y - side * rng.uniform(0.8, 2.0)
+    rays = []
+    for at in np.linspace(x - 0.5, x + 0.5, int(rng.integers(6, 14))).tolist():
+        angle = math.atan2(y - scanner_y, at - scanner_x)
+        length = rng.uniform(0.3, 3.0)
+        reach = length / 2 - 0.2  # from just inside the wall
+        centre = (at + reach * math.cos(angle), y + reach * math.sin(angle))
+        rays.append(Item(centre, (length, 0.0), angle))
+    return rays
 
 
 def _draw(

@@ -30,8 +30,9 @@ def observe(
         free = _roughen(rng, free, resolution)
     free = _add_speckles(rng, free, resolution)
     surface = _dilate(free) & ~free
-    thick = _dilate(surface) & (_smooth_noise(rng, free.shape, resolution) > 0.55)
-    missed = (_smooth_noise(rng, free.shape, resolution) > 0.85) & (rng.random(free.shape) < 0.6)
+    jitter = rng.random(free.shape, dtype=np.float32)
+    thick = _dilate(surface) & (_smooth_noise(rng, free.shape, resolution) + 0.3 * jitter > 0.55)
+    missed = (_smooth_noise(rng, free.shape, resolution) > 0.85) & (jitter < 0.6)
     seen = (surface & ~missed) | thick
     return ~free, ~free & ~seen
 
@@ -42,11 +43,12 @@ def _roughen(
     """Let surfaces bulge by a cell here and there and recede by one, more in some places."""
     roughness = _smooth_noise(rng, free.shape, resolution) ** 2
     chance = rng.random(free.shape, dtype=np.float32)
-    bulge = free & _dilate(~free) & (chance < 0.35 * roughness)
-    # Receding only from what has solid cells behind it: no wall gets a hole.
+    bulge = free & _dilate(~free) & (chance < 0.4 * roughness)
+    # Only what has solid cells behind it recedes, so no wall gets a hole.
     near = _dilate(free)
-    recede = ~free & near & ~_dilate(~_dilate(~near)) & (chance > 1.0 - 0.25 * roughness)
-    return (free & ~bulge) | recede
+    recede = ~free & near & _dilate(~near) & (chance > 1.0 - 0.3 * roughness)
+    result: NDArray[np.bool_] = (free & ~bulge) | recede
+    return result
 
 
 def _add_speckles(
@@ -59,7 +61,7 @@ def _add_speckles(
 
 def _dilate(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """The mask and its eight neighbours; NumPy alone."""
-    grown = mask.copy()
+    grown: NDArray[np.bool_] = mask.copy()
     grown[1:] |= mask[:-1]
     grown[:-1] |= mask[1:]
     rows = grown.copy()

@@ -97,10 +97,9 @@ class PositionEncoding(nn.Module):
         return axis + torch.randint(room, (count, 1, 1), device=axis.device)
 
     def _encode(self, place: Tensor) -> Tensor:
-        frequencies = self.get_buffer("frequencies")[:, None, None]
-        angles = place[:, None] * frequencies
-        even = torch.arange(len(frequencies), device=place.device)[:, None, None] % 2 == 0
-        return torch.where(even, angles.sin(), angles.cos())
+        angles = place[:, None] * self.get_buffer("frequencies")[:, None, None]
+        pairs = torch.stack([angles[:, 0::2].sin(), angles[:, 1::2].cos()], dim=2)
+        return pairs.flatten(1, 2)
 
 
 class EncoderLayer(nn.Module):

@@ -1,0 +1,90 @@
+"""The network as deployments run it: raw map in, probabilities and unit headings out."""
+
+from __future__ import annotations
+
+import io
+import warnings
+
+import torch
+import torch.nn.functional as F
+from torch import Tensor, nn
+
+from planformer.encoding import NetworkScale
+
+OPSET = 17
+MAP, QUERY = "map", "query"
+PROBABILITY, HEADING = "probability", "heading"
+
+
+class DeployedProposer(nn.Module):
+    """A network with its input and output conversions.
+
+    Args:
+        network: A network that returns a `Proposal`.
+    """
+
+    def __init__(self, network: nn.Module) -> None:
+        super().__init__()
+        self.network = network
+
+    def forward(self, map: Tensor, query: Tensor) -> Tensor | tuple[Tensor, Tensor]:
+        """Propose a region.
+
+        Args:
+            map: (B, 1, H, W) uint8, 1 = blocked; H and W multiples of the stride.
+            query: (B, C, H/s, W/s) float32.
+
+        Returns:
+            (B, 1, h, w) float32 probabilities and, in SE(2), (B, 2, h, w) float32 unit headings
+            (cos, sin).
+        """
+        logits, heading = self.network(map.to(query.dtype), query)
+        if heading is None:
+            return torch.sigmoid(logits)
+        return torch.sigmoid(logits), F.normalize(heading, dim=1)
+
+
+def example_inputs(
+    scale: NetworkScale, height: int, width: int, *, batch: int = 1, seed: int = 0
+) -> tuple[Tensor, Tensor]:
+    """Random inputs of a network, `height` by `width` pixels."""
+    generator = torch.Generator().manual_seed(seed)
+    map_shape = (batch, 1, height, width)
+    pixels = torch.randint(2, map_shape, generator=generator, dtype=torch.uint8)
+    side = scale.query_stride
+    query_shape = (batch, scale.query_channels, height // side, width // side)
+    return pixels, 2 * torch.rand(query_shape, generator=generator) - 1
+
+
+def to_onnx(network: nn.Module, scale: NetworkScale) -> bytes:
+    """Translate a network to ONNX with dynamic batch, height and width.
+
+    Args:
+        network: The network, in evaluation mode on the CPU.
+        scale: Its scale.
+
+    Returns:
+        The serialised model; inputs "map" and "query", outputs "probability" and, in SE(2),
+        "heading".
+    """
+    outputs = [PROBABILITY, HEADING] if scale.headings else [PROBABILITY]
+    inputs = example_inputs(scale, 12 * scale.stride, 15 * scale.stride)
+    file = io.BytesIO()
+    with warnings.catch_warnings():
+        # PyTorch's newer exporter needs onnxscript; the older one says that it is old.
+        warnings.simplefilter("ignore", DeprecationWarning)
+        warnings.simplefilter("ignore", torch.jit.TracerWarning)
+        torch.onnx.export(
+            DeployedProposer(network).eval(),  # the export restores this mode, of all parts
+            inputs,
+            file,
+            dynamo=False,
+            opset_version=OPSET,
+            input_names=[MAP, QUERY],
+            output_names=outputs,
+            dynamic_axes={
+                name: {0: "batch", 2: f"{name}_height", 3: f"{name}_width"}
+                for name in (MAP, QUERY, *outputs)
+            },
+        )
+    return file.getvalue()

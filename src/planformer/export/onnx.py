@@ -1,0 +1,127 @@
+"""Export of trained networks for ONNX Runtime."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+from torch import nn
+
+from planformer.encoding import NetworkScale
+from planformer.errors import InvalidWeights, MissingExtra
+from planformer.export.card import write_card
+from planformer.export.graph import MAP, QUERY, example_inputs, to_onnx
+from planformer.models import load_checkpoint, replace_file
+
+TOLERANCE = 1e-4
+"""Largest difference of a probability or heading component between ONNX Runtime and PyTorch."""
+
+CHECKED_SIZES = ((480, 480), (240, 360), (360, 240), (780, 780), (20, 40))
+"""Map sizes (H, W) in pixels at which both are compared."""
+
+
+class Exported(NamedTuple):
+    """The files of an export.
+
+    Attributes:
+        weights: The .onnx file.
+        card: The .json card beside it.
+        difference: Largest difference between ONNX Runtime and PyTorch that was seen.
+    """
+
+    weights: Path
+    card: Path
+    difference: float
+
+
+def export(checkpoint: str | Path, path: str | Path, *, name: str | None = None) -> Exported:
+    """Export a training's checkpoint to one .onnx file with a card.
+
+    The weights are stored in float32: a compact network is a few MB, and half precision would
+    shift probabilities by more than the tolerance. Nothing is written unless ONNX Runtime
+    reproduces PyTorch at all `CHECKED_SIZES`.
+
+    Args:
+        checkpoint: A file that `planformer.training.train` wrote.
+        path: The .onnx file to write; the card takes its name.
+        name: Name of the weights; by default the file's.
+
+    Returns:
+        The files and the largest difference seen.
+
+    Raises:
+        InvalidWeights: The checkpoint is damaged, or the exported network differs.
+        MissingExtra: onnx or ONNX Runtime is not installed.
+    """
+    path = Path(path)
+    if path.suffix != ".onnx":
+        raise InvalidWeights(f"weights are exported to a file named *.onnx; got {path}")
+    network, model, stored = load_checkpoint(Path(checkpoint))
+    model.eval()
+    try:
+        content = to_onnx(model, network.scale)
+        difference = largest_difference(content, model, network.scale)
+    except ModuleNotFoundError as error:
+        raise MissingExtra(error.name or "onnx", "train") from error
+    if not difference <= TOLERANCE:
+        raise InvalidWeights(
+            f"the exported network differs from PyTorch's by {difference:.2g}; at most "
+            f"{TOLERANCE} is allowed"
+        )
+    replace_file(path, lambda file: file.write(content))
+    card = write_card(
+        path,
+        network,
+        name=name or path.stem,
+        training={key: stored.get(key) for key in ("training", "data", "step", "seconds")},
+        accuracy=_last_metrics(stored.get("history", [])),
+    )
+    return Exported(path, card, difference)
+
+
+def largest_difference(content: bytes, model: nn.Module, scale: NetworkScale) -> float:
+    """Compare ONNX Runtime with PyTorch on random inputs of all `CHECKED_SIZES`.
+
+    Args:
+        content: The serialised ONNX model.
+        model: The network that it was made from, in evaluation mode.
+        scale: The network's scale.
+
+    Returns:
+        The largest absolute difference of a probability, or of a component of a heading times
+        its length before normalisation, at most 1: the direction of nothing is left to rounding.
+        NaN if there is one.
+    """
+    import onnxruntime
+
+    session = onnxruntime.InferenceSession(content, providers=["CPUExecutionProvider"])
+    differences = [0.0]
+    for seed, (height, width) in enumerate(CHECKED_SIZES):
+        pixels, query = example_inputs(scale, height, width, batch=1 + seed % 2, seed=seed)
+        actual = session.run(None, {MAP: pixels.numpy(), QUERY: query.numpy()})
+        with torch.no_grad():
+            logits, heading = model(pixels.float(), query)
+        differences.append(_largest(actual[0] - logits.sigmoid().numpy()))
+        if heading is not None:
+            length = heading.norm(dim=1, keepdim=True)
+            unit = (heading / length).numpy()
+            differences.append(_largest((actual[1] - unit) * length.clamp(max=1).numpy()))
+    return float(np.max(differences))
+
+
+def _largest(difference: NDArray[np.float32]) -> float:
+    return float(np.abs(difference).max())
+
+
+def _last_metrics(history: list[dict[str, Any]]) -> dict[str, dict[str, float]]:
+    """The metrics of the last validation by kind of map."""
+    last = max((row["step"] for row in history), default=None)
+    common = {"step", "seconds", "learning_rate", "train_loss", "kind"}
+    return {
+        row["kind"]: {k: v for k, v in row.items() if k not in common}
+        for row in history
+        if row["step"] == last
+    }

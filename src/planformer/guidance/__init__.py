@@ -1,0 +1,19 @@
+"""Guidance: networks propose a region of the map, planners search there."""
+
+from planformer.guidance.onnx import OnnxNetwork, OnnxProposer, load_network
+from planformer.guidance.plan import plan, propose_region
+from planformer.guidance.proposer import RegionProposer
+from planformer.guidance.region import Region, make_region
+from planformer.guidance.weights import guide_names
+
+__all__ = [
+    "OnnxNetwork",
+    "OnnxProposer",
+    "Region",
+    "RegionProposer",
+    "guide_names",
+    "load_network",
+    "make_region",
+    "plan",
+    "propose_region",
+]

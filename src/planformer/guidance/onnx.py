@@ -1,0 +1,113 @@
+"""Region proposal by a network that ONNX Runtime evaluates on the CPU."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+import onnxruntime
+from numpy.typing import NDArray
+
+from planformer.encoding import encode_query, network_map
+from planformer.errors import InvalidParameter, InvalidWeights, WeightsMismatch
+from planformer.guidance.region import Region, make_region
+from planformer.guidance.weights import Weights, read_weights, weights_path
+from planformer.planning import Problem
+
+
+@dataclass(frozen=True)
+class OnnxNetwork:
+    """Weights with their ONNX Runtime session; loading takes a while, running does not."""
+
+    weights: Weights
+    session: onnxruntime.InferenceSession
+
+    def predict(
+        self, problem: Problem
+    ) -> tuple[NDArray[np.float32], NDArray[np.float64] | None]:
+        """Evaluate the network.
+
+        Returns:
+            (h, w) probabilities and, from a network for SE(2), (h, w) headings in rad in the map's
+            own frame.
+        """
+        scale = self.weights.scale
+        if scale.headings and problem.robot.state_dimension == 2:
+            raise WeightsMismatch(
+                f"the weights {self.weights.name} need start and goal headings, which a "
+                f"{type(problem.robot).__name__} does not have; use weights for a point robot"
+            )
+        pixels = network_map(problem.blocked, problem.grid.resolution, scale)
+        query = encode_query(pixels, problem.local_start, problem.local_goal, scale)
+        outputs = self.session.run(None, {"map": pixels[None, None], "query": query[None]})
+        probability = outputs[0][0, 0]
+        if not np.isfinite(probability).all():
+            raise InvalidWeights(f"the weights {self.weights.name} predict values that are no number")
+        if not scale.headings:
+            return probability, None
+        cos, sin = outputs[1][0].astype(np.float64)
+        return probability, np.arctan2(sin, cos)
+
+
+@dataclass(frozen=True)
+class OnnxProposer:
+    """A `RegionProposer` on an `OnnxNetwork`.
+
+    Attributes:
+        network: From `load_network`.
+        threshold: Fixed threshold in [0, 1], 0.5 as in the paper; None chooses it per query so
+            that start and goal are connected.
+
+    Raises:
+        InvalidParameter: The threshold is out of range.
+    """
+
+    network: OnnxNetwork
+    threshold: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.threshold is None:
+            return
+        if not (math.isfinite(self.threshold) and 0.0 <= self.threshold <= 1.0):
+            raise InvalidParameter(
+                f"threshold must be between 0 and 1 or None; got {self.threshold}"
+            )
+
+    def propose(self, problem: Problem) -> Region:
+        """Propose a region for a problem."""
+        probability, headings = self.network.predict(problem)
+        return make_region(
+            problem,
+            probability,
+            self.network.weights.scale,
+            headings=headings,
+            threshold=self.threshold,
+        )
+
+
+def load_network(guide: str) -> OnnxNetwork:
+    """Load shipped weights by name, or an .onnx file with its card by path.
+
+    A file is loaded once; it is loaded again when it has changed.
+
+    Raises:
+        UnknownGuide: No such weights.
+        InvalidWeights: The file is damaged or does not fit its card.
+    """
+    path = weights_path(guide)
+    return _load(path, path.stat().st_mtime_ns)
+
+
+@lru_cache(maxsize=8)
+def _load(path: Path, modified: int) -> OnnxNetwork:
+    weights = read_weights(path)
+    try:
+        session = onnxruntime.InferenceSession(
+            weights.model, providers=["CPUExecutionProvider"]
+        )
+    except Exception as error:  # ONNX Runtime's exceptions share no public base class
+        raise InvalidWeights(f"ONNX Runtime cannot load {path}: {error}") from error
+    return OnnxNetwork(weights, session)
