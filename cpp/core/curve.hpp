@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 namespace planformer {
@@ -157,8 +158,14 @@ bool for_each_pose(const Curve& curve, double step, Visit&& visit) {
     return true;
 }
 
-/// Slack of the curve solvers in turning radii (and rad): poses are met to this, no closer. It lies
-/// far above rounding (1e-12 for maps of a kilometre) and far below what a robot can measure.
+/// What the curve solvers require: finite poses and a finite radius > 0.
+inline bool solvable(const Pose& from, const Pose& to, double turning_radius) {
+    return is_finite(from) && is_finite(to) && std::isfinite(turning_radius) &&
+           turning_radius > 0.0;
+}
+
+/// Slack of the curve solvers in turning radii: a curve may miss its goal by this. It lies far
+/// above rounding (1e-12 for maps of a kilometre) and far below what a robot can measure.
 constexpr double kCurveSlack = 1e-9;
 
 /// The vector between the centres of a turning circle at the start and one at the goal.

@@ -1,5 +1,10 @@
 #include "core/dubins.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
 namespace planformer {
 namespace {
 
@@ -84,11 +89,6 @@ Word& shortest(Words& words) {
     return *std::min_element(words.begin(), words.end(), [](const Word& a, const Word& b) {
         return a.length < b.length;
     });
-}
-
-bool solvable(const Pose& from, const Pose& to, double turning_radius) {
-    return is_finite(from) && is_finite(to) && std::isfinite(turning_radius) &&
-           turning_radius > 0.0;
 }
 
 Curve build(const Word& word, const Pose& from, double turning_radius) {

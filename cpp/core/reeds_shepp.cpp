@@ -1,5 +1,9 @@
 #include "core/reeds_shepp.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 #include <tuple>
 
 #include "core/dubins.hpp"
@@ -195,11 +199,6 @@ Curve reversed(const Curve& curve, const Pose& end) {
         back.append({curve.segment(i).curvature, -curve.segment(i).length});
     }
     return back;
-}
-
-bool solvable(const Pose& from, const Pose& to, double turning_radius) {
-    return is_finite(from) && is_finite(to) && std::isfinite(turning_radius) &&
-           turning_radius > 0.0;
 }
 
 /// Both directions of travel between two poses are solved as one, for exact symmetry.

@@ -45,8 +45,11 @@ def encode_query(
     if scale.query is QueryKind.WAVEFRONT:
         channels.insert(1, _distance_channels(free, states, scale))
     if scale.headings:
-        channels.append(np.concatenate([_direction(s)[:, None, None] * m
-                                        for s, m in zip(states, markers, strict=True)]))
+        channels.append(
+            np.concatenate(
+                [_direction(s)[:, None, None] * m for s, m in zip(states, markers, strict=True)]
+            )
+        )
     return np.concatenate(channels).astype(np.float32)
 
 
@@ -88,7 +91,8 @@ def _marker(
         (np.arange(size // scale.query_stride) + 0.5) * scale.query_resolution for size in shape
     )
     bell_x, bell_y = (
-        np.exp(-0.5 * ((axis - at) / MARKER_SIGMA) ** 2) for axis, at in ((x, state[0]), (y, state[1]))
+        np.exp(-0.5 * ((axis - at) / MARKER_SIGMA) ** 2)
+        for axis, at in ((x, state[0]), (y, state[1]))
     )
     return np.outer(bell_y, bell_x)
 

@@ -14,9 +14,7 @@ _EDGE_TOLERANCE = 1e-6
 """In cells: 0.1 / 0.05 is meant to be two."""
 
 
-def network_map(
-    blocked: ArrayLike, resolution: float, scale: NetworkScale
-) -> NDArray[np.uint8]:
+def network_map(blocked: ArrayLike, resolution: float, scale: NetworkScale) -> NDArray[np.uint8]:
     """Rasterise blocked cells for a network.
 
     A network pixel is blocked when any cell that it overlaps is, so no wall is lost. The map is

@@ -147,7 +147,9 @@ class OccupancyGrid:
     def contains(self, xy: ArrayLike) -> NDArray[np.bool_]:
         """Whether world points (..., 2) in metres lie on the map; NaN and infinity do not."""
         rows, columns = self.shape
-        cells = self.frame.to_local(as_xy(xy)) / self.resolution
+        points = as_xy(xy)
+        with np.errstate(invalid="ignore", over="ignore"):
+            cells = self.frame.to_local(points) / self.resolution
         x, y = cells[..., 0], cells[..., 1]
         return np.asarray((x >= 0) & (x < columns) & (y >= 0) & (y < rows))
 
@@ -166,7 +168,8 @@ class OccupancyGrid:
         points = as_xy(xy)
         if not np.isfinite(points).all():
             raise InvalidParameter("coordinates must be finite to be turned into cells")
-        cells = np.floor(self.frame.to_local(points) / self.resolution)[..., ::-1]
+        with np.errstate(over="ignore"):
+            cells = np.floor(self.frame.to_local(points) / self.resolution)[..., ::-1]
         # Far beyond any map; only keeps the conversion to integers defined.
         return np.clip(cells, -_FARTHEST_CELL, _FARTHEST_CELL).astype(np.int64)
 

@@ -71,7 +71,13 @@ def load_checkpoint(path: Path) -> tuple[MPTConfig, nn.Module, dict[str, Any]]:
     except FileNotFoundError:
         raise InvalidWeights(f"no checkpoint at {path}") from None
     except (
-        AttributeError, EOFError, KeyError, OSError, RuntimeError, TypeError, ValueError,
+        AttributeError,
+        EOFError,
+        KeyError,
+        OSError,
+        RuntimeError,
+        TypeError,
+        ValueError,
         pickle.UnpicklingError,
     ) as error:
         raise InvalidWeights(f"{path} is no usable checkpoint: {error}") from error

@@ -46,9 +46,16 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--minutes", type=float, help="end after this training time")
     parser.add_argument("--steps", type=int, help="end after this many steps")
     for name, kind in (
-        ("batch-size", int), ("learning-rate", float), ("positive-weight", float),
-        ("warmup-steps", int), ("seed", int), ("workers", int), ("threads", int),
-        ("device", str), ("validate-every", int), ("validation-problems", int),
+        ("batch-size", int),
+        ("learning-rate", float),
+        ("positive-weight", float),
+        ("warmup-steps", int),
+        ("seed", int),
+        ("workers", int),
+        ("threads", int),
+        ("device", str),
+        ("validate-every", int),
+        ("validation-problems", int),
     ):
         parser.add_argument(f"--{name}", type=kind)
     return parser

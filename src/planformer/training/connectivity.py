@@ -50,9 +50,7 @@ def _edges(
     return lower, np.repeat(first, count) + rank
 
 
-def _components(
-    nodes: int, left: NDArray[np.intp], right: NDArray[np.intp]
-) -> NDArray[np.intp]:
+def _components(nodes: int, left: NDArray[np.intp], right: NDArray[np.intp]) -> NDArray[np.intp]:
     """Number of each node's component: the lowest number of its nodes."""
     root = np.arange(nodes)
     while True:

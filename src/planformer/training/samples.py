@@ -121,7 +121,9 @@ class ResumableBatches:
 
     def __init__(self, problems: int, batch_size: int, *, seed: int, step: int = 0) -> None:
         if problems < batch_size:
-            raise InvalidDataset(f"a batch needs {batch_size} problems; the data set has {problems}")
+            raise InvalidDataset(
+                f"a batch needs {batch_size} problems; the data set has {problems}"
+            )
         self._problems, self._batch_size = problems, batch_size
         self._seed, self._step = seed, step
 
