@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import pickle
 import subprocess
 import sys
 
@@ -245,6 +246,16 @@ def test_equality_and_hash():
         "grid",
     ]
     assert all(grid != other for other in others)
+
+
+def test_pickled_maps_come_back_read_only_and_without_caches():
+    grid = OccupancyGrid(np.eye(200), 0.1, (1, 2, 3), np.eye(200)[::-1])
+    size = len(pickle.dumps(grid))
+    assert grid.blocked(0.3).any()
+    assert len(pickle.dumps(grid)) == size
+    copied = pickle.loads(pickle.dumps(grid))
+    assert copied == grid
+    assert not copied.occupied.flags.writeable
 
 
 def test_repr_tells_what_matters():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -84,7 +85,7 @@ def _densified(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Evenly spaced points of a path and the unit direction of travel at each."""
     points, directions = [np.empty((0, 2))], [np.empty((0, 2))]
-    for a, b in zip(path[:-1], path[1:], strict=True):
+    for a, b in pairwise(path):
         length = math.hypot(*(b - a))
         if length > 0:
             count = math.ceil(length / _SPACING)

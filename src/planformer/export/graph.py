@@ -27,18 +27,18 @@ class DeployedProposer(nn.Module):
         super().__init__()
         self.network = network
 
-    def forward(self, map: Tensor, query: Tensor) -> Tensor | tuple[Tensor, Tensor]:
+    def forward(self, occupancy: Tensor, query: Tensor) -> Tensor | tuple[Tensor, Tensor]:
         """Propose a region.
 
         Args:
-            map: (B, 1, H, W) uint8, 1 = blocked; H and W multiples of the stride.
+            occupancy: (B, 1, H, W) uint8, 1 = blocked; H and W multiples of the stride.
             query: (B, C, H/s, W/s) float32.
 
         Returns:
             (B, 1, h, w) float32 probabilities and, in SE(2), (B, 2, h, w) float32 unit headings
             (cos, sin).
         """
-        logits, heading = self.network(map.to(query.dtype), query)
+        logits, heading = self.network(occupancy.to(query.dtype), query)
         if heading is None:
             return torch.sigmoid(logits)
         return torch.sigmoid(logits), F.normalize(heading, dim=1)

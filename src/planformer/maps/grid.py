@@ -269,6 +269,10 @@ class OccupancyGrid:
         occupied, unknown = resample_masks(self.occupied, self.unknown, ratio)
         return OccupancyGrid(occupied, resolution, self.origin, unknown)
 
+    def __reduce__(self) -> tuple[type[OccupancyGrid], tuple[object, ...]]:
+        # Through the constructor: a copy in another process is read-only too, and without caches.
+        return OccupancyGrid, (self.occupied, self.resolution, self.origin, self.unknown)
+
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, OccupancyGrid):
             return NotImplemented

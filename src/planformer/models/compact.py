@@ -45,17 +45,17 @@ class CompactMPT(nn.Module):
         self.norm = ChannelNorm(body.width)
         self.head = nn.Conv2d(body.width, 3 if scale.headings else 1, 1)
 
-    def forward(self, map: Tensor, query: Tensor) -> Proposal:
+    def forward(self, occupancy: Tensor, query: Tensor) -> Proposal:
         """Propose a region.
 
         Args:
-            map: (B, 1, H, W) float, 1 = blocked; H and W multiples of 20.
+            occupancy: (B, 1, H, W) float, 1 = blocked; H and W multiples of 20.
             query: (B, C, H / 5, W / 5) float.
 
         Returns:
             The proposal, with the anchor of token (r, c) at pixel (20 r + 10, 20 c + 10).
         """
-        tokens = self.stem(torch.cat([self.pack(map), query], dim=1))
+        tokens = self.stem(torch.cat([self.pack(occupancy), query], dim=1))
         output = self.head(self.norm(self.groups(tokens)))
         return Proposal(output[:, :1], output[:, 1:] if output.shape[1] > 1 else None)
 
@@ -68,9 +68,9 @@ def _group(body: CompactBody) -> nn.Sequential:
 class ChannelNorm(nn.LayerNorm):
     """LayerNorm over the channels of (B, d, h, w)."""
 
-    def forward(self, input: Tensor) -> Tensor:
+    def forward(self, tokens: Tensor) -> Tensor:
         """(B, d, h, w) to (B, d, h, w)."""
-        return super().forward(input.permute(0, 2, 3, 1)).permute(0, 3, 1, 2)
+        return super().forward(tokens.permute(0, 2, 3, 1)).permute(0, 3, 1, 2)
 
 
 class ConvolutionBlock(nn.Module):
@@ -149,7 +149,7 @@ class AttentionBlock(nn.Module):
 
 
 def _rotary_angles(window: int, head_width: int) -> Tensor:
-    """(window^2, head_width / 2) angles: half of the pairs turn with the row, half with the column."""
+    """(window^2, head_width / 2) angles: half of them grow with the row, half with the column."""
     count = head_width // 4
     frequencies = _ROTARY_PERIODS ** -(torch.arange(count) / count)
     along = torch.arange(window)[:, None] * frequencies

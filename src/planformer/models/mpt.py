@@ -44,17 +44,17 @@ class MotionPlanningTransformer(nn.Module):
         self.classifier = nn.Conv2d(body.width, 2, 1)
         self.orientation = nn.Conv2d(body.width, 2, 1) if headings else None
 
-    def forward(self, map: Tensor, query: Tensor) -> Proposal:
+    def forward(self, occupancy: Tensor, query: Tensor) -> Proposal:
         """Propose a region.
 
         Args:
-            map: (B, 1, H, W) float, 1 = blocked; H and W multiples of 20.
+            occupancy: (B, 1, H, W) float, 1 = blocked; H and W multiples of 20.
             query: (B, C, H, W) float.
 
         Returns:
             The proposal, with the anchor of token (r, c) at pixel (20 r + 4, 20 c + 4).
         """
-        features = self.extractor(torch.cat([map, query], dim=1))
+        features = self.extractor(torch.cat([occupancy, query], dim=1))
         tokens = (features + self.positions(features)).flatten(2).transpose(1, 2)
         tokens = self.norm(self.dropout(tokens))
         for layer in self.layers:

@@ -75,7 +75,7 @@ class TrainState:
 
 def new_state(network: MPTConfig, config: TrainConfig, data: dict[str, Any]) -> TrainState:
     """Fresh weights, drawn from PyTorch's random state."""
-    model = create_model(network).to(config.device, memory_format=torch.channels_last)
+    model = _placed(create_model(network), config)
     return TrainState(network, model, create_optimizer(model, config), data)
 
 
@@ -92,7 +92,7 @@ def resumed_state(
         raise InvalidWeights(
             f"{path} holds another network, {found}; asked for {network}: choose another folder"
         )
-    model = model.to(config.device, memory_format=torch.channels_last)
+    model = _placed(model, config)
     optimizer = create_optimizer(model, config)
     try:
         optimizer.load_state_dict(stored["optimizer"])
@@ -101,6 +101,12 @@ def resumed_state(
     except (KeyError, ValueError) as error:
         raise InvalidWeights(f"{path} is no checkpoint of this training: {error}") from error
     return TrainState(network, model, optimizer, data, **progress)
+
+
+def _placed(model: nn.Module, config: TrainConfig) -> nn.Module:
+    """Move a network to its device, in the layout whose convolutions are the fastest on a CPU."""
+    layout = {"memory_format": torch.channels_last}
+    return model.to(config.device).to(**layout)  # type: ignore[call-overload,no-any-return]
 
 
 def _csv(rows: list[dict[str, Any]]) -> bytes:

@@ -1,0 +1,154 @@
+"""What explains a picture: title, caption, legend, colour bar, scale bar, axes."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.lines import Line2D
+from matplotlib.ticker import MaxNLocator
+from matplotlib.transforms import blended_transform_factory
+
+from planformer.planning import PlanResult, PlanStatus
+from planformer.plotting import style
+from planformer.plotting.layout import Layout
+from planformer.robots import Robot
+
+_SCALE_BAR_SHARE = 0.2
+
+
+def draw_furniture(layout: Layout, robot: Robot, result: PlanResult, title: str | None) -> None:
+    """Draw everything that stands beside the map."""
+    _draw_axes(layout)
+    _draw_texts(layout, result, title)
+    _draw_legend(layout, robot, result)
+    _draw_scale_bar(layout)
+    if result.region is not None:
+        _draw_colour_bar(layout)
+
+
+def caption(result: PlanResult) -> str:
+    """One line on the outcome: status, length, vertices, region and times."""
+    parts = [outcome(result)]
+    if result.solved:
+        parts.append(f"{result.length:.2f} m")
+    parts.append(f"{result.vertices:,} vertices")
+    if result.region is not None:
+        parts.append(f"region {result.region.share:.1%} of the map")
+        parts.append(f"proposal {duration(result.proposal_seconds)}")
+    parts.append(f"planning {duration(result.planning_seconds)}")
+    return "  ·  ".join(parts)
+
+
+def outcome(result: PlanResult) -> str:
+    """Whether there is a path, and why the search ended where that says more."""
+    if not result.solved:
+        return f"no path: {result.status.value}"
+    plain = result.status is PlanStatus.FINISHED
+    return "path found" if plain else f"path found, {result.status.value}"
+
+
+def duration(seconds: float) -> str:
+    """A readable time, in milliseconds below a second."""
+    return f"{seconds:.2f} s" if seconds >= 1.0 else f"{seconds * 1e3:.3g} ms"
+
+
+def nice_length(extent: float) -> float:
+    """The largest of 1, 2, 5, 10, ... (and 0.5, 0.2, ...) that is at most `extent`."""
+    power = 10.0 ** math.floor(math.log10(extent))
+    return max(step * power for step in (1.0, 2.0, 5.0) if step * power <= extent)
+
+
+def _draw_axes(layout: Layout) -> None:
+    axes = layout.axes
+    axes.tick_params(length=2.5, color=style.MUTED, labelcolor=style.MUTED, labelsize=7.5)
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_locator(MaxNLocator(nbins=8, steps=[1, 2, 5, 10]))
+    for spine in axes.spines.values():
+        spine.set_visible(False)
+
+
+def _draw_texts(layout: Layout, result: PlanResult, title: str | None) -> None:
+    figure = layout.figure
+    left = 0.55
+    if title:
+        figure.text(*layout.at(left, 0.36), title, size=14, weight="bold", color=style.INK)
+    figure.text(
+        *layout.at(left, 0.62),
+        caption(result),
+        size=8.5,
+        color=style.MUTED if result.solved else style.ALARM,
+    )
+
+
+def _draw_legend(layout: Layout, robot: Robot, result: PlanResult) -> None:
+    legend = layout.figure.legend(
+        handles=_handles(robot, result),
+        loc="center left",
+        bbox_to_anchor=layout.at(0.5, -0.27),
+        ncols=5,
+        frameon=False,
+        fontsize=8.5,
+        labelcolor=style.INK,
+        borderpad=0.0,
+        handletextpad=0.55,
+        columnspacing=1.5,
+    )
+    legend.set_zorder(1)
+
+
+def _handles(robot: Robot, result: PlanResult) -> list[Artist]:
+    symbols = (">", ">") if robot.state_dimension == 3 else ("o", "*")
+    handles: list[Artist] = [
+        Line2D(
+            [], [], linestyle="none", marker=symbol, markersize=size, label=label,
+            markerfacecolor=colour, markeredgecolor=style.HALO,
+        )
+        for label, colour, symbol, size in (
+            ("start", style.START, symbols[0], 9.0),
+            ("goal", style.GOAL, symbols[1], 9.0 if symbols[1] == ">" else 13.0),
+        )
+    ]
+    if result.solved:
+        handles.append(Line2D([], [], color=style.PATH, linewidth=2.5, label="path"))
+    if result.tree is not None:
+        handles.append(Line2D([], [], color=style.TREE, linewidth=0.8, label="search tree"))
+    if result.region is not None:
+        handles.append(Line2D([], [], color=style.REGION, linewidth=1.0, label="region"))
+    return handles
+
+
+def _draw_colour_bar(layout: Layout) -> None:
+    figure = layout.figure
+    width, height = figure.get_size_inches()
+    left, bottom = layout.at(-1.85, 0.36)
+    axes = figure.add_axes((left, bottom, 1.3 / width, 0.11 / height))
+    axes.imshow(
+        np.linspace(0.0, 1.0, 256)[None],
+        cmap=style.heat_colours(),
+        aspect="auto",
+        extent=(0.0, 1.0, 0.0, 1.0),
+    )
+    axes.set_facecolor(style.FLOOR)
+    axes.set_axis_off()
+    for x, text, side in ((-0.06, "0", "right"), (1.06, "1", "left")):
+        axes.text(x, 0.45, text, size=7.5, color=style.MUTED, ha=side, va="center")
+    axes.text(0.5, -0.5, "probability", size=7.5, color=style.MUTED, ha="center", va="top")
+
+
+def _draw_scale_bar(layout: Layout) -> None:
+    """Draw a bar of a round number of metres under the right end of the map."""
+    axes = layout.axes
+    low, high = axes.get_xlim()
+    length = nice_length(_SCALE_BAR_SHARE * (high - low))
+    place = blended_transform_factory(axes.transData, layout.figure.transFigure)
+    _, y = layout.at(0.0, -0.24)
+    bar = {"color": style.INK, "linewidth": 1.6, "solid_capstyle": "butt", "clip_on": False}
+    axes.plot([high - length, high], [y, y], transform=place, **bar)
+    for x in (high - length, high):
+        axes.plot(x, y, marker="|", markersize=6, color=style.INK, transform=place, clip_on=False)
+    axes.text(
+        high - 0.5 * length, layout.at(0.0, -0.31)[1], f"{length:g} m",
+        transform=place, size=8.5, color=style.INK, ha="center", va="bottom",
+    )

@@ -1,0 +1,145 @@
+"""What lies on the map: the region's outline, the search tree, the path, start and goal."""
+
+from __future__ import annotations
+
+import contourpy
+import numpy as np
+from matplotlib import patheffects
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.markers import MarkerStyle
+from matplotlib.path import Path
+from matplotlib.transforms import Affine2D
+from numpy.typing import NDArray
+
+from planformer import _core
+from planformer.guidance import Region
+from planformer.maps import OccupancyGrid
+from planformer.planning import PlanResult, Tree
+from planformer.plotting import style
+from planformer.plotting.raster import resized
+from planformer.robots import DubinsCar, Robot
+
+_OUTLINE_PIXELS = 1600
+_MAX_EDGES = 60_000
+"""Beyond this a tree is a solid area, and drawing it takes seconds."""
+_DART = np.array([(1.0, 0.0), (-0.8, 0.72), (-0.42, 0.0), (-0.8, -0.72)])
+_CAR = np.array([(0.9, 0.0), (0.62, 0.42), (-0.9, 0.42), (-0.9, -0.42), (0.62, -0.42)])
+"""Outline of a car inside its disc of radius 1, pointed at the front."""
+_CARS = 14
+
+
+def draw_region(axes: Axes, grid: OccupancyGrid, region: Region) -> None:
+    """Draw the outline of the region."""
+    lines = [grid.frame.to_world(line) for line in outline(grid, region.mask)]
+    axes.add_collection(
+        LineCollection(
+            lines, colors=style.REGION, linewidths=0.9, alpha=0.75, joinstyle="round", zorder=2
+        )
+    )
+
+
+def outline(grid: OccupancyGrid, mask: NDArray[np.bool_]) -> list[NDArray[np.float64]]:
+    """Closed outlines (N, 2) of a (H, W) bool mask, metres in the map's own frame."""
+    factor = max(1.0, max(mask.shape) / _OUTLINE_PIXELS)
+    rows, columns = (max(1, round(side / factor)) for side in mask.shape)
+    padded = np.pad(resized(mask, (rows, columns)), 1)
+    x = (np.arange(columns + 2) - 0.5) * (grid.width / columns)
+    y = (np.arange(rows + 2) - 0.5) * (grid.height / rows)
+    lines = contourpy.contour_generator(x, y, padded).lines(0.5)
+    return [np.clip(line, 0.0, (grid.width, grid.height)) for line in lines]
+
+
+def draw_tree(axes: Axes, robot: Robot, tree: Tree) -> None:
+    """Draw the search tree: straight edges for a point robot, curves for a car."""
+    edges = tree.edges[:: -(-len(tree.edges) // _MAX_EDGES) or 1]
+    axes.add_collection(
+        LineCollection(
+            edge_lines(robot, tree.vertices, edges),
+            colors=style.TREE,
+            linewidths=0.45,
+            alpha=float(np.clip(30.0 / np.sqrt(len(edges) + 1), 0.22, 0.7)),
+            zorder=3,
+        )
+    )
+
+
+def edge_lines(
+    robot: Robot, vertices: NDArray[np.float64], edges: NDArray[np.int64]
+) -> list[NDArray[np.float64]]:
+    """(N, 2) points in metres of each edge (parent, child), N >= 2."""
+    if not isinstance(robot, DubinsCar):
+        return list(vertices[edges][..., :2])
+    step = robot.turning_radius / 6.0
+    poses = np.ascontiguousarray(vertices)
+    return [
+        _core.curve_poses(
+            poses[parent], poses[child], robot.turning_radius, robot.reverses, step
+        )[:, :2]
+        for parent, child in edges
+    ]
+
+
+def draw_path(axes: Axes, grid: OccupancyGrid, robot: Robot, result: PlanResult) -> None:
+    """Draw the path with a halo and, for a car, some outlines of the car along it."""
+    halo = patheffects.withStroke(linewidth=5.4, foreground=style.HALO, alpha=0.9)
+    axes.plot(
+        *result.path[:, :2].T,
+        color=style.PATH,
+        linewidth=2.5,
+        solid_capstyle="round",
+        solid_joinstyle="round",
+        path_effects=[halo],
+        zorder=4,
+    )
+    if robot.state_dimension == 3:
+        # A small robot on a large map is drawn larger than it is: its heading must be seen.
+        size = max(robot.radius, 0.008 * max(grid.width, grid.height))
+        axes.add_collection(
+            PolyCollection(
+                car_outlines(result.path, size),
+                facecolors=style.HALO,
+                edgecolors=style.PATH,
+                linewidths=1.1,
+                zorder=5,
+            )
+        )
+
+
+def car_outlines(path: NDArray[np.float64], size: float) -> list[NDArray[np.float64]]:
+    """(5, 2) outlines in metres of a car in a disc of radius `size`, evenly spaced along a path."""
+    steps = np.hypot(*np.diff(path[:, :2], axis=0).T)
+    along = np.concatenate(([0.0], np.cumsum(steps)))
+    count = min(_CARS, int(along[-1] / (4.0 * size)))
+    # Both ends have markers of their own.
+    wanted = np.linspace(0.0, along[-1], count + 2)[1:-1]
+    nearest = np.abs(along[:, None] - wanted).argmin(axis=0)
+    return [_placed(_CAR * size, pose) for pose in path[np.unique(nearest)]]
+
+
+def _placed(shape: NDArray[np.float64], pose: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.asarray(Affine2D().rotate(pose[2]).translate(*pose[:2]).transform(shape))
+
+
+def draw_ends(axes: Axes, start: NDArray[np.float64], goal: NDArray[np.float64]) -> None:
+    """Mark start and goal: a disc and a star, for a car an arrowhead along each heading."""
+    for state, colour, symbol, size in (
+        (start, style.START, "o", 11.5),
+        (goal, style.GOAL, "*", 18.0),
+    ):
+        is_pose = len(state) == 3
+        axes.plot(
+            *state[:2],
+            marker=_dart(float(state[2])) if is_pose else symbol,
+            markersize=19.0 if is_pose else size,
+            markerfacecolor=colour,
+            markeredgecolor=style.HALO,
+            markeredgewidth=1.6,
+            linestyle="none",
+            clip_on=False,
+            zorder=6,
+        )
+
+
+def _dart(yaw: float) -> MarkerStyle:
+    return MarkerStyle(Path(_DART, closed=False), transform=Affine2D().rotate(yaw))

@@ -1,0 +1,70 @@
+"""The picture of a plan."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.transforms import Affine2D
+
+from planformer.maps import OccupancyGrid
+from planformer.planning import PlanResult
+from planformer.plotting.furniture import draw_furniture
+from planformer.plotting.layers import draw_ends, draw_path, draw_region, draw_tree
+from planformer.plotting.layout import DPI, Layout, make_layout
+from planformer.plotting.raster import map_image
+from planformer.robots import Robot
+
+
+def plot_result(
+    grid: OccupancyGrid,
+    robot: Robot,
+    start: Sequence[float],
+    goal: Sequence[float],
+    result: PlanResult,
+    *,
+    title: str | None = None,
+) -> Figure:
+    """Draw a plan: map, region proposal, search tree, path, start and goal.
+
+    The axes are metres in the world frame; a turned map is drawn turned. The tree is drawn where
+    the plan kept it (`keep_tree=True`). Nothing of Matplotlib's global state is used, so that
+    pictures may be drawn in any thread and beside the caller's own figures.
+
+    Args:
+        grid: The map.
+        robot: The robot.
+        start: (x, y) or, for a car, (x, y, yaw) in the world frame, metres and rad.
+        goal: As the start.
+        result: What `planformer.plan` returned for them.
+        title: Line above the picture.
+
+    Returns:
+        A Matplotlib figure; see `save_picture`.
+    """
+    layout = make_layout(grid)
+    _draw_map(layout, grid, robot, result)
+    if result.region is not None:
+        draw_region(layout.axes, grid, result.region)
+    if result.tree is not None:
+        draw_tree(layout.axes, robot, result.tree)
+    if result.solved:
+        draw_path(layout.axes, grid, robot, result)
+    draw_ends(layout.axes, *(np.asarray(state, np.float64) for state in (start, goal)))
+    draw_furniture(layout, robot, result, title)
+    return layout.figure
+
+
+def _draw_map(layout: Layout, grid: OccupancyGrid, robot: Robot, result: PlanResult) -> None:
+    x, y, yaw = grid.origin
+    longer = layout.figure.get_size_inches().max() * DPI
+    image = layout.axes.imshow(
+        map_image(grid, robot.radius, result.region, pixels=int(longer)),
+        origin="lower",
+        extent=(0.0, grid.width, 0.0, grid.height),
+        interpolation="antialiased",
+        aspect="equal",
+        zorder=1,
+    )
+    image.set_transform(Affine2D().rotate(yaw).translate(x, y) + layout.axes.transData)
