@@ -1,3 +1,4 @@
+/// What the binding files share: array types and their conversion to and from the core's types.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -6,32 +7,42 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
-#include <memory>
+#include <utility>
 #include <vector>
 
+#include "core/curve.hpp"
 #include "core/free_space.hpp"
 
 namespace planformer {
 
 namespace nb = nanobind;
 
-/// A robot-inflated map: (H, W), true where blocked.
+/// A robot-inflated map: (H, W), true where blocked. As for all arrays that come in, one of another
+/// element type or layout is converted on the way.
 using BlockedArray = nb::ndarray<const bool, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 
-inline FreeSpace free_space_of(const BlockedArray& blocked, double resolution) {
-    static_assert(sizeof(bool) == sizeof(std::uint8_t));
-    return {static_cast<int>(blocked.shape(0)), static_cast<int>(blocked.shape(1)), resolution,
-            reinterpret_cast<const std::uint8_t*>(blocked.data())};
-}
+/// Poses: (N, 3) of x, y [m] and yaw [rad].
+using PosesArray = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
 
-/// An (N, columns) NumPy array that owns its rows.
 template <typename T>
-nb::ndarray<nb::numpy, T> to_numpy(std::vector<T> values, std::size_t columns) {
+using NumpyArray = nb::ndarray<nb::numpy, T>;
+
+/// The grid's cells without a copy. Raises ValueError for a size or resolution that none can have.
+FreeSpace free_space_of(const BlockedArray& blocked, double resolution);
+
+/// The pose in three consecutive numbers.
+inline Pose to_pose(const double* xy_yaw) { return {xy_yaw[0], xy_yaw[1], xy_yaw[2]}; }
+
+/// A NumPy array of the given shape that owns the values.
+template <typename T>
+NumpyArray<T> to_numpy(std::vector<T> values, std::initializer_list<std::size_t> shape) {
     auto* owned = new std::vector<T>(std::move(values));
     const nb::capsule owner(owned, [](void* p) noexcept { delete static_cast<std::vector<T>*>(p); });
-    const std::size_t shape[2] = {owned->size() / columns, columns};
-    return nb::ndarray<nb::numpy, T>(owned->data(), 2, shape, owner);
+    return {owned->data(), shape, owner};
 }
+
+/// An (N, 3) NumPy array of poses.
+NumpyArray<double> to_numpy(const std::vector<Pose>& poses);
 
 void register_curves(nb::module_& m);
 void register_grid_search(nb::module_& m);

@@ -15,7 +15,6 @@ namespace {
 using namespace nb::literals;
 
 using PoseArray = nb::ndarray<const double, nb::shape<3>, nb::c_contig, nb::device::cpu>;
-using PosesArray = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
 
 void require_positive(const char* name, double value) {
     if (std::isfinite(value) && value > 0.0) return;
@@ -24,10 +23,8 @@ void require_positive(const char* name, double value) {
     throw nb::value_error(message.c_str());
 }
 
-Pose to_pose(const double* xy_yaw) { return {xy_yaw[0], xy_yaw[1], xy_yaw[2]}; }
-
-nb::object curve_lengths(const PosesArray& starts, const PosesArray& goals, double turning_radius,
-                         bool reverse) {
+NumpyArray<double> curve_lengths(const PosesArray& starts, const PosesArray& goals,
+                                 double turning_radius, bool reverse) {
     require_positive("turning_radius", turning_radius);
     const std::size_t count = starts.shape(0);
     if (goals.shape(0) != count) throw nb::value_error("starts and goals differ in number");
@@ -40,25 +37,25 @@ nb::object curve_lengths(const PosesArray& starts, const PosesArray& goals, doub
                                  turning_radius);
         }
     }
-    return to_numpy(std::move(lengths), 1).cast().attr("ravel")();
+    return to_numpy(std::move(lengths), {count});
 }
 
-nb::ndarray<nb::numpy, double> curve_poses(const PoseArray& start, const PoseArray& goal,
-                                           double turning_radius, bool reverse, double step) {
+NumpyArray<double> curve_poses(const PoseArray& start, const PoseArray& goal,
+                               double turning_radius, bool reverse, double step) {
     require_positive("turning_radius", turning_radius);
     require_positive("step", step);
-    std::vector<double> poses;
+    std::vector<Pose> poses;
     {
         const nb::gil_scoped_release unlocked;
         const auto solve = reverse ? reeds_shepp : dubins;
         const Curve curve = solve(to_pose(start.data()), to_pose(goal.data()), turning_radius);
         for_each_pose(curve, step, [&poses](const Pose& pose) {
-            poses.insert(poses.end(), {pose.x, pose.y, pose.yaw});
+            poses.push_back(pose);
             return true;
         });
     }
     if (poses.empty()) throw nb::value_error("start and goal must be finite");
-    return to_numpy(std::move(poses), 3);
+    return to_numpy(poses);
 }
 
 }  // namespace

@@ -1,85 +1,45 @@
-#include <nanobind/nanobind.h>
-#include <nanobind/ndarray.h>
-
+/// Python functions of the searches on the grid itself.
 #include <cstdint>
-#include <limits>
+#include <utility>
 #include <vector>
 
-#include "core/free_space.hpp"
+#include "bindings/bindings.hpp"
 #include "core/lazy_theta.hpp"
 #include "core/wavefront.hpp"
-
-namespace nb = nanobind;
 
 namespace planformer {
 namespace {
 
-/// NumPy converts arrays of another type or layout on the way in.
-using BlockedArray = nb::ndarray<const bool, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 using PointArray = nb::ndarray<const double, nb::shape<2>, nb::c_contig, nb::device::cpu>;
-using Path = nb::ndarray<nb::numpy, double, nb::shape<-1, 2>>;
-using Distances = nb::ndarray<nb::numpy, float, nb::ndim<2>>;
 
-static_assert(sizeof(bool) == sizeof(std::uint8_t));
+Point to_point(const PointArray& xy) { return {xy.data()[0], xy.data()[1]}; }
 
-const std::uint8_t* cells(const BlockedArray& blocked) {
-    return reinterpret_cast<const std::uint8_t*>(blocked.data());
-}
-
-void check_size(const BlockedArray& blocked) {
-    if (blocked.size() >= static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
-        throw nb::value_error("blocked must have fewer than 2^31 - 1 cells");
-    }
-}
-
-template <typename T>
-nb::capsule owner_of(T* data) {
-    return nb::capsule(data, [](void* p) noexcept { delete[] static_cast<T*>(p); });
-}
-
-Path to_array(const std::vector<Point>& path) {
-    auto* data = new double[2 * path.size()];
-    nb::capsule owner = owner_of(data);
-    for (std::size_t i = 0; i < path.size(); ++i) {
-        data[2 * i] = path[i].x;
-        data[2 * i + 1] = path[i].y;
-    }
-    return Path(data, {path.size(), 2}, owner);
-}
-
-Path find_path(const BlockedArray& blocked, double resolution, const PointArray& start,
-               const PointArray& goal) {
-    check_size(blocked);
-    if (!(resolution > 0.0)) {
-        throw nb::value_error("resolution must be positive");
-    }
-    const FreeSpace space{static_cast<int>(blocked.shape(0)), static_cast<int>(blocked.shape(1)),
-                          resolution, cells(blocked)};
-    const Point from{start.data()[0], start.data()[1]};
-    const Point to{goal.data()[0], goal.data()[1]};
-    std::vector<Point> path;
+NumpyArray<double> find_path(const BlockedArray& blocked, double resolution,
+                             const PointArray& start, const PointArray& goal) {
+    const FreeSpace space = free_space_of(blocked, resolution);
+    std::vector<double> values;
     {
-        nb::gil_scoped_release release;
-        path = lazy_theta(space, from, to);
+        const nb::gil_scoped_release unlocked;
+        for (const Point& point : lazy_theta(space, to_point(start), to_point(goal))) {
+            values.insert(values.end(), {point.x, point.y});
+        }
     }
-    return to_array(path);
+    const std::size_t count = values.size() / 2;
+    return to_numpy(std::move(values), {count, 2});
 }
 
-Distances find_distances(const BlockedArray& blocked, std::int64_t row, std::int64_t col) {
-    check_size(blocked);
-    const auto height = static_cast<std::int64_t>(blocked.shape(0));
-    const auto width = static_cast<std::int64_t>(blocked.shape(1));
-    if (row < 0 || row >= height || col < 0 || col >= width) {
+NumpyArray<float> find_distances(const BlockedArray& blocked, std::int64_t row, std::int64_t col) {
+    const FreeSpace space = free_space_of(blocked, 1.0);
+    if (row < 0 || row >= space.height || col < 0 || col >= space.width) {
         throw nb::index_error("the source cell lies outside the grid");
     }
-    auto* data = new float[blocked.size()];
-    nb::capsule owner = owner_of(data);
+    std::vector<float> distances(blocked.size());
     {
-        nb::gil_scoped_release release;
-        wavefront(cells(blocked), static_cast<int>(height), static_cast<int>(width),
-                  static_cast<int>(row), static_cast<int>(col), data);
+        const nb::gil_scoped_release unlocked;
+        wavefront(space.blocked, space.height, space.width, static_cast<int>(row),
+                  static_cast<int>(col), distances.data());
     }
-    return Distances(data, {blocked.shape(0), blocked.shape(1)}, owner);
+    return to_numpy(std::move(distances), {blocked.shape(0), blocked.shape(1)});
 }
 
 }  // namespace

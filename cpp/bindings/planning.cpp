@@ -1,3 +1,4 @@
+/// Python classes and functions of the planning core.
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/shared_ptr.h>
@@ -14,34 +15,22 @@
 #include "core/validity.hpp"
 
 namespace planformer {
-
 namespace {
 
-using PoseArray = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
-
-std::vector<double> flatten(const std::vector<Pose>& poses) {
-    std::vector<double> values;
-    values.reserve(3 * poses.size());
-    for (const Pose& pose : poses) values.insert(values.end(), {pose.x, pose.y, pose.yaw});
-    return values;
-}
-
-std::vector<std::uint32_t> flatten(const Tree& tree) {
+/// (E, 2): the parent and the child of each edge.
+NumpyArray<std::uint32_t> edges_of(const Tree& tree) {
     std::vector<std::uint32_t> values;
     values.reserve(2 * tree.edges.size());
     for (const auto& [parent, child] : tree.edges) values.insert(values.end(), {parent, child});
-    return values;
+    return to_numpy(std::move(values), {tree.edges.size(), 2});
 }
 
-Pose to_pose(const std::array<double, 3>& values) { return {values[0], values[1], values[2]}; }
-
-std::shared_ptr<Region> make_region(const PoseArray& anchors, bool has_heading, double half_width,
+std::shared_ptr<Region> make_region(const PosesArray& anchors, bool has_heading, double half_width,
                                     double minor_axis, double yaw_deviation, double area) {
     if (anchors.shape(0) == 0) throw nb::value_error("a region needs at least one anchor");
     auto region = std::make_shared<Region>();
     for (std::size_t i = 0; i < anchors.shape(0); ++i) {
-        const double* row = anchors.data() + 3 * i;
-        region->anchors.push_back({row[0], row[1], row[2]});
+        region->anchors.push_back(to_pose(anchors.data() + 3 * i));
     }
     region->has_heading = has_heading;
     region->half_width = half_width;
@@ -65,8 +54,8 @@ Answer run_plan(const BlockedArray& blocked, double resolution, const RobotModel
     Query query;
     query.free_space = free_space_of(blocked, resolution);
     query.robot = robot;
-    query.start = to_pose(start);
-    query.goal = to_pose(goal);
+    query.start = to_pose(start.data());
+    query.goal = to_pose(goal.data());
     query.planner = planner;
     query.guidance = {std::move(region), exploration};
     query.limits = limits;
@@ -130,21 +119,21 @@ void register_planning(nb::module_& m) {
                  rng.setLocalSeed(seed);
                  std::vector<Pose> poses(count);
                  for (Pose& pose : poses) pose = sample_region(self, rng);
-                 return to_numpy(flatten(poses), 3);
+                 return to_numpy(poses);
              },
              nb::arg("count"), nb::arg("seed"), "Draw (count, 3) poses, some maybe off the map.");
 
     nb::class_<Answer>(m, "Answer")
-        .def_prop_ro("path", [](const Answer& a) { return to_numpy(flatten(a.path), 3); },
+        .def_prop_ro("path", [](const Answer& a) { return to_numpy(a.path); },
                      nb::rv_policy::move)
         .def_ro("length", &Answer::length)
         .def_ro("vertices", &Answer::vertices)
         .def_ro("seconds", &Answer::seconds)
         .def_ro("outcome", &Answer::outcome)
         .def_prop_ro("tree_vertices",
-                     [](const Answer& a) { return to_numpy(flatten(a.tree.vertices), 3); },
+                     [](const Answer& a) { return to_numpy(a.tree.vertices); },
                      nb::rv_policy::move)
-        .def_prop_ro("tree_edges", [](const Answer& a) { return to_numpy(flatten(a.tree), 2); },
+        .def_prop_ro("tree_edges", [](const Answer& a) { return edges_of(a.tree); },
                      nb::rv_policy::move);
 
     m.def("plan", &run_plan, nb::arg("blocked"), nb::arg("resolution"), nb::arg("robot"),

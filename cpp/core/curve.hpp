@@ -118,7 +118,7 @@ bool for_each_arc_pose(const Pose& arc_start, const Segment& arc, const Pose& ar
                        Visit&& visit) {
     constexpr double kMostPoses = 1 << 20;  // bounds the loop whatever the step
     const double wanted = std::ceil(std::abs(arc.length) / step);
-    const int poses = wanted < kMostPoses ? std::max(1, static_cast<int>(wanted)) : 1 << 20;
+    const int poses = static_cast<int>(std::min(kMostPoses, std::max(1.0, wanted)));
     const double turn = arc.curvature * arc.length / poses;
     const double turn_cos = std::cos(turn);
     const double turn_sin = std::sin(turn);

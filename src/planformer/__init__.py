@@ -16,8 +16,8 @@ if TYPE_CHECKING:
     from planformer.guidance import Region as Region
     from planformer.guidance import RegionProposer as RegionProposer
     from planformer.guidance import guide_names as guide_names
-    from planformer.guidance import plan as plan
-    from planformer.guidance import propose_region as propose_region
+    from planformer.guidance.plan import plan as plan
+    from planformer.guidance.plan import propose_region as propose_region
     from planformer.maps import OccupancyGrid as OccupancyGrid
     from planformer.maps import generate_forest as generate_forest
     from planformer.maps import generate_indoor as generate_indoor
@@ -61,15 +61,17 @@ _HOME = {
     "save_map": "maps",
 }
 
-__all__ = ["PlanformerError", "errors", *_HOME]  # noqa: PLE0604
+__all__ = ["PlanformerError", "errors", *_HOME]
 
 
-def __getattr__(name: str) -> Any:
-    if name not in _HOME:
-        raise AttributeError(f"module 'planformer' has no attribute {name!r}")
-    value = getattr(importlib.import_module(f"planformer.{_HOME[name]}"), name)
-    globals()[name] = value
-    return value
+if not TYPE_CHECKING:  # a type checker would take every misspelt name for an attribute
+
+    def __getattr__(name: str) -> Any:
+        if name not in _HOME:
+            raise AttributeError(f"module 'planformer' has no attribute {name!r}")
+        value = getattr(importlib.import_module(f"planformer.{_HOME[name]}"), name)
+        globals()[name] = value
+        return value
 
 
 def __dir__() -> list[str]:

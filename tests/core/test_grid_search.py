@@ -130,7 +130,7 @@ def test_the_length_is_within_half_a_percent_of_the_any_angle_optimum(generate, 
     for seed in range(maps):
         blocked = generate(seed, width=5.1, height=5.1, resolution=0.2).occupied
         cells = np.random.default_rng(seed).choice(np.argwhere(~blocked), (2, 2))[..., ::-1]
-        for start, goal in cells + (0.375, 0.625):
+        for start, goal in cells + np.array([0.375, 0.625]):
             path = _core.lazy_theta(blocked, 1.0, start, goal)
             if len(path) > 2:
                 length = polyline_length(path)

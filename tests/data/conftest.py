@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+import shutil
+
 import pytest
 
 from planformer.data.generate import generate_dataset
@@ -23,6 +25,4 @@ def small_settings():
 @pytest.fixture
 def small_dataset(_small_dataset, tmp_path):
     """A copy of a small data set that a test may damage."""
-    import shutil
-
     return shutil.copytree(_small_dataset, tmp_path / "set")

@@ -69,10 +69,10 @@ def test_damage_is_noticed_or_harmless(shard_file, data):
     damaged.write_bytes(content)
     try:
         shard = read_shard(damaged)
-    except InvalidDataset as error:
-        assert "damaged.npz" in str(error)
-    else:  # bytes that nothing depends on, as an archive's time stamps
-        np.testing.assert_array_equal(shard.vertices, make_shard()[1].vertices)
+    except InvalidDataset:
+        return
+    # Bytes that nothing depends on, as an archive's time stamps.
+    np.testing.assert_array_equal(shard.vertices, make_shard()[1].vertices)
 
 
 @pytest.mark.parametrize(

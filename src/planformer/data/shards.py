@@ -121,7 +121,7 @@ def read_shard(path: Path) -> Shard:
         InvalidDataset: The file is missing, damaged or not a shard.
     """
     try:
-        with np.load(path, allow_pickle=False) as arrays:
+        with path.open("rb") as file, np.load(file, allow_pickle=False) as arrays:
             return Shard(
                 recipes=_recipes(arrays),
                 checksums=arrays["checksum"].astype(np.uint32, casting="safe"),

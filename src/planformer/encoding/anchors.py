@@ -77,7 +77,8 @@ def anchor_headings(anchors: NDArray[np.float64], path: ArrayLike) -> NDArray[np
     total = near @ directions
     norm = np.hypot(total[:, 0], total[:, 1])
     unit = np.where(norm[:, None] > 1e-6, total / np.maximum(norm, 1e-6)[:, None], 0.0)
-    return unit.T.reshape(2, *anchors.shape[:2]).astype(np.float32)
+    headings: NDArray[np.float32] = unit.T.reshape(2, *anchors.shape[:2]).astype(np.float32)
+    return headings
 
 
 def _densified(
@@ -106,7 +107,7 @@ def region_mask(selected: NDArray[np.bool_], scale: NetworkScale) -> NDArray[np.
         (h * stride, w * stride) bool, True inside a selected token's patch.
     """
     mask = _dilated(np.asarray(selected, dtype=bool), scale)
-    return _dilated(mask.T, scale).T
+    return np.ascontiguousarray(_dilated(mask.T, scale).T)
 
 
 def _dilated(selected: NDArray[np.bool_], scale: NetworkScale) -> NDArray[np.bool_]:

@@ -72,15 +72,17 @@ def _square_query(
     """The paper's encoding, section IV-A: patches of -1 at the start and +1 at the goal."""
     query = np.zeros((scale.query_channels, *shape), np.float32)
     for state, sign in zip(states, (-1.0, 1.0), strict=True):  # where they overlap the goal wins
-        row, col = (round(v / scale.resolution) - scale.patch // 2 for v in state[1::-1])
-        window = (
-            slice(max(row, 0), max(row + scale.patch, 0)),
-            slice(max(col, 0), max(col + scale.patch, 0)),
-        )
-        query[0][window] = sign
+        rows, cols = (_patch(coordinate, scale) for coordinate in state[1::-1])
+        query[0, rows, cols] = sign
         if scale.headings:
-            query[(slice(1, None), *window)] = _direction(state)[:, None, None]
+            query[1:, rows, cols] = _direction(state)[:, None, None]
     return query
+
+
+def _patch(coordinate: float, scale: NetworkScale) -> slice:
+    """The pixels of a patch around a coordinate in metres, along one axis."""
+    first = round(coordinate / scale.resolution) - scale.patch // 2
+    return slice(max(first, 0), max(first + scale.patch, 0))
 
 
 def _marker(
@@ -101,7 +103,8 @@ def _free_share(pixels: NDArray[np.uint8], side: int) -> NDArray[np.float64]:
     """(h, w) share of free pixels in each square of `side` pixels."""
     height, width = pixels.shape
     squares = pixels.reshape(height // side, side, width // side, side)
-    return 1.0 - squares.mean(axis=(1, 3))
+    free: NDArray[np.float64] = 1.0 - squares.mean(axis=(1, 3))
+    return free
 
 
 def _distance_channels(

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 try:
-    from planformer._core import wavefront as _compiled
+    from planformer import _core
 except ImportError:  # a checkout that only trains networks has no compiled core
-    _compiled = None
+    _core = None  # type: ignore[assignment]
 
 
 def wavefront(blocked: NDArray[np.bool_], cell: tuple[int, int]) -> NDArray[np.float32]:
@@ -20,15 +20,14 @@ def wavefront(blocked: NDArray[np.bool_], cell: tuple[int, int]) -> NDArray[np.f
 
     Args:
         blocked: (H, W) bool.
-        cell: (row, col) of the source, inside the grid.
+        cell: (row, col) of the source, inside the grid; a wave leaves it even if it is blocked.
 
     Returns:
         (H, W) float32 distances in cells, infinity where no path leads.
     """
-    if _compiled is None:
+    if _core is None:
         return relaxed_wavefront(blocked, cell)
-    distance: NDArray[np.float32] = _compiled(np.ascontiguousarray(blocked, np.uint8), *cell)
-    return distance
+    return _core.wavefront(np.ascontiguousarray(blocked), *cell)
 
 
 def relaxed_wavefront(blocked: NDArray[np.bool_], cell: tuple[int, int]) -> NDArray[np.float32]:
@@ -37,7 +36,6 @@ def relaxed_wavefront(blocked: NDArray[np.bool_], cell: tuple[int, int]) -> NDAr
     stride = width + 2
     free = np.zeros((height + 2, stride), bool)
     free[1:-1, 1:-1] = ~blocked
-    free[cell[0] + 1, cell[1] + 1] = True
     moves, open_moves = _moves(free)
     distance = np.full(free.size, math.inf)
     frontier = np.array([(cell[0] + 1) * stride + cell[1] + 1])
@@ -52,17 +50,18 @@ def relaxed_wavefront(blocked: NDArray[np.bool_], cell: tuple[int, int]) -> NDAr
             distance[target] = length[shorter]
             changed.append(target)
         frontier = np.unique(np.concatenate(changed))
-    return distance.reshape(free.shape)[1:-1, 1:-1].astype(np.float32)
+    inside: NDArray[np.float32] = distance.reshape(free.shape)[1:-1, 1:-1].astype(np.float32)
+    return inside
 
 
 def _moves(
     free: NDArray[np.bool_],
 ) -> tuple[list[tuple[int, float]], list[NDArray[np.bool_]]]:
-    """The eight steps as (flat offset, cost), and for each where it may be taken, flat."""
+    """The eight steps as (flat offset, cost), and for each the cells that it may leave, flat."""
     moves, open_moves = [], []
     for dr, dc in ((0, 1), (0, -1), (1, 0), (-1, 0), (1, 1), (1, -1), (-1, 1), (-1, -1)):
         side_cells_free = np.roll(free, -dr, axis=0) & np.roll(free, -dc, axis=1)
-        may = free & np.roll(free, (-dr, -dc), axis=(0, 1)) & side_cells_free
+        may = np.roll(free, (-dr, -dc), axis=(0, 1)) & side_cells_free
         moves.append((dr * free.shape[1] + dc, math.hypot(dr, dc)))
         open_moves.append(may.ravel())
     return moves, open_moves

@@ -73,11 +73,11 @@ def to_onnx(network: nn.Module, scale: NetworkScale) -> bytes:
     with warnings.catch_warnings():
         # PyTorch's newer exporter needs onnxscript; the older one says that it is old.
         warnings.simplefilter("ignore", DeprecationWarning)
-        warnings.simplefilter("ignore", torch.jit.TracerWarning)
+        warnings.simplefilter("ignore", torch.jit.TracerWarning)  # type: ignore[attr-defined]
         torch.onnx.export(
             DeployedProposer(network).eval(),  # the export restores this mode, of all parts
             inputs,
-            file,
+            file,  # type: ignore[arg-type]  # declared for paths, made for files too
             dynamo=False,
             opset_version=OPSET,
             input_names=[MAP, QUERY],

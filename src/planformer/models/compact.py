@@ -121,7 +121,7 @@ class AttentionBlock(nn.Module):
 
     def _mask(self, tokens: Tensor, beyond: tuple[int, int, int, int]) -> Tensor | None:
         """(B * windows, 1, 1, n) bool, False beyond the map; None where all is map."""
-        if not (torch.jit.is_tracing() or any(beyond)):
+        if not (torch.onnx.is_in_onnx_export() or any(beyond)):
             return None
         inside = F.pad(torch.ones_like(tokens[:, :1]), beyond)
         return self._split(inside)[:, None, None, :, 0] > 0.5

@@ -86,7 +86,7 @@ def _draw_legend(layout: Layout, robot: Robot, result: PlanResult) -> None:
     legend = layout.figure.legend(
         handles=_handles(robot, result),
         loc="center left",
-        bbox_to_anchor=layout.at(0.5, -0.27),
+        bbox_to_anchor=layout.at(0.5, -0.29),
         ncols=5,
         frameon=False,
         fontsize=8.5,
@@ -122,8 +122,8 @@ def _handles(robot: Robot, result: PlanResult) -> list[Artist]:
 def _draw_colour_bar(layout: Layout) -> None:
     figure = layout.figure
     width, height = figure.get_size_inches()
-    left, bottom = layout.at(-1.85, 0.36)
-    axes = figure.add_axes((left, bottom, 1.3 / width, 0.11 / height))
+    left, bottom = layout.at(-1.45, 0.35)
+    axes = figure.add_axes((left, bottom, 1.05 / width, 0.11 / height))
     axes.imshow(
         np.linspace(0.0, 1.0, 256)[None],
         cmap=style.heat_colours(),
@@ -132,9 +132,8 @@ def _draw_colour_bar(layout: Layout) -> None:
     )
     axes.set_facecolor(style.FLOOR)
     axes.set_axis_off()
-    for x, text, side in ((-0.06, "0", "right"), (1.06, "1", "left")):
-        axes.text(x, 0.45, text, size=7.5, color=style.MUTED, ha=side, va="center")
-    axes.text(0.5, -0.5, "probability", size=7.5, color=style.MUTED, ha="center", va="top")
+    for x, text, side in ((-0.06, "probability  0", "right"), (1.06, "1", "left")):
+        axes.text(x, 0.42, text, size=7.5, color=style.MUTED, ha=side, va="center")
 
 
 def _draw_scale_bar(layout: Layout) -> None:
@@ -143,12 +142,12 @@ def _draw_scale_bar(layout: Layout) -> None:
     low, high = axes.get_xlim()
     length = nice_length(_SCALE_BAR_SHARE * (high - low))
     place = blended_transform_factory(axes.transData, layout.figure.transFigure)
-    _, y = layout.at(0.0, -0.24)
+    _, y = layout.at(0.0, -0.27)
     bar = {"color": style.INK, "linewidth": 1.6, "solid_capstyle": "butt", "clip_on": False}
     axes.plot([high - length, high], [y, y], transform=place, **bar)
     for x in (high - length, high):
         axes.plot(x, y, marker="|", markersize=6, color=style.INK, transform=place, clip_on=False)
     axes.text(
-        high - 0.5 * length, layout.at(0.0, -0.31)[1], f"{length:g} m",
+        high - 0.5 * length, layout.at(0.0, -0.33)[1], f"{length:g} m",
         transform=place, size=8.5, color=style.INK, ha="center", va="bottom",
     )

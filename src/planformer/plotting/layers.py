@@ -13,6 +13,7 @@ from matplotlib.transforms import Affine2D
 from numpy.typing import NDArray
 
 from planformer import _core
+from planformer.geometry import polyline_length
 from planformer.guidance import Region
 from planformer.maps import OccupancyGrid
 from planformer.planning import PlanResult, Tree
@@ -23,6 +24,9 @@ from planformer.robots import DubinsCar, Robot
 _OUTLINE_PIXELS = 1600
 _MAX_EDGES = 60_000
 """Beyond this a tree is a solid area, and drawing it takes seconds."""
+_MIN_OPACITY, _MAX_OPACITY = 0.1, 0.7
+_SPARSE = 40.0
+"""Length of a tree in diagonals of its extent up to which it is drawn with full opacity."""
 _DART = np.array([(1.0, 0.0), (-0.8, 0.72), (-0.42, 0.0), (-0.8, -0.72)])
 _CAR = np.array([(0.9, 0.0), (0.62, 0.42), (-0.9, 0.42), (-0.9, -0.42), (0.62, -0.42)])
 """Outline of a car inside its disc of radius 1, pointed at the front."""
@@ -53,15 +57,23 @@ def outline(grid: OccupancyGrid, mask: NDArray[np.bool_]) -> list[NDArray[np.flo
 def draw_tree(axes: Axes, robot: Robot, tree: Tree) -> None:
     """Draw the search tree: straight edges for a point robot, curves for a car."""
     edges = tree.edges[:: -(-len(tree.edges) // _MAX_EDGES) or 1]
+    lines = edge_lines(robot, tree.vertices, edges)
     axes.add_collection(
         LineCollection(
-            edge_lines(robot, tree.vertices, edges),
-            colors=style.TREE,
-            linewidths=0.45,
-            alpha=float(np.clip(30.0 / np.sqrt(len(edges) + 1), 0.22, 0.7)),
-            zorder=3,
+            lines, colors=style.TREE, linewidths=0.45, alpha=_tree_opacity(lines), zorder=3
         )
     )
+
+
+def _tree_opacity(lines: list[NDArray[np.float64]]) -> float:
+    """Lower for a dense tree, so that the heat map shows through."""
+    if not lines:
+        return _MAX_OPACITY
+    length = sum(polyline_length(line) for line in lines)
+    extent = np.ptp(np.concatenate(lines), axis=0)
+    # Length for its extent, in lengths of a stroke along it: 1 = drawn once.
+    density = length / max(float(np.hypot(*extent)), 1e-9)
+    return float(np.clip(_MAX_OPACITY * (_SPARSE / density) ** 0.5, _MIN_OPACITY, _MAX_OPACITY))
 
 
 def edge_lines(
@@ -94,7 +106,7 @@ def draw_path(axes: Axes, grid: OccupancyGrid, robot: Robot, result: PlanResult)
     )
     if robot.state_dimension == 3:
         # A small robot on a large map is drawn larger than it is: its heading must be seen.
-        size = max(robot.radius, 0.008 * max(grid.width, grid.height))
+        size = max(robot.radius, 0.009 * max(grid.width, grid.height))
         axes.add_collection(
             PolyCollection(
                 car_outlines(result.path, size),
@@ -113,8 +125,10 @@ def car_outlines(path: NDArray[np.float64], size: float) -> list[NDArray[np.floa
     count = min(_CARS, int(along[-1] / (4.0 * size)))
     # Both ends have markers of their own.
     wanted = np.linspace(0.0, along[-1], count + 2)[1:-1]
-    nearest = np.abs(along[:, None] - wanted).argmin(axis=0)
-    return [_placed(_CAR * size, pose) for pose in path[np.unique(nearest)]]
+    x, y = (np.interp(wanted, along, path[:, axis]) for axis in (0, 1))
+    # Poses are dense on arcs, and on a straight line both ends have its yaw.
+    yaw = path[np.searchsorted(along, wanted), 2]
+    return [_placed(_CAR * size, pose) for pose in np.column_stack((x, y, yaw))]
 
 
 def _placed(shape: NDArray[np.float64], pose: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -15,7 +15,7 @@ DPI = 160
 _AREA = 56.0
 _MIN_SIDE, _MAX_SIDE = 2.0, 12.0
 _MIN_WIDTH = 7.0
-_LEFT, _RIGHT, _TOP, _BOTTOM = 0.55, 0.25, 0.82, 0.85
+_LEFT, _RIGHT, _TOP, _BOTTOM = 0.55, 0.25, 0.82, 0.88
 
 
 @dataclass(frozen=True)

@@ -48,7 +48,7 @@ def mirrored(example: Example) -> Example:
     width = example.blocked.shape[1] * example.resolution
 
     def mirror(states: NDArray[np.float64]) -> NDArray[np.float64]:
-        result = states.copy()
+        result: NDArray[np.float64] = states.copy()
         result[..., 0] = width - states[..., 0]
         result[..., 2:] = np.pi - states[..., 2:]
         return result
@@ -60,7 +60,7 @@ def transposed(example: Example) -> Example:
     """The example with x and y exchanged."""
 
     def exchange(states: NDArray[np.float64]) -> NDArray[np.float64]:
-        result = states.copy()
+        result: NDArray[np.float64] = states.copy()
         result[..., :2] = states[..., 1::-1]
         result[..., 2:] = np.pi / 2 - states[..., 2:]
         return result

@@ -37,7 +37,11 @@ def learning_rate(config: TrainConfig, *, step: int, seconds: float) -> float:
     warmup = max(config.warmup_steps, 1)
     if config.recipe is Recipe.PAPER:
         number = step + 1
-        return 0.5 * _PAPER_WIDTH**-0.5 * min(number**-0.5, number * warmup**-1.5)
+        return (
+            0.5
+            / math.sqrt(_PAPER_WIDTH)
+            * min(1 / math.sqrt(number), number * float(warmup) ** -1.5)
+        )
     progress = min(_progress(config, step, seconds), 1.0)
     cosine = _FLOOR + (1 - _FLOOR) * 0.5 * (1 + math.cos(math.pi * progress))
     return config.learning_rate * min((step + 1) / warmup, 1.0) * cosine

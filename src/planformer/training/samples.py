@@ -74,7 +74,7 @@ def load_example(source: PathSource, index: int) -> Example:
 def encode_example(example: Example, scale: NetworkScale) -> Batch:
     """Tensors of one problem, without the batch axis."""
     pixels = network_map(example.blocked, example.resolution, scale)
-    anchors = anchor_points(*pixels.shape, scale)
+    anchors = anchor_points(pixels.shape[0], pixels.shape[1], scale)
     positive = anchor_labels(anchors, example.path)
     heading = (
         anchor_headings(anchors, example.path)
@@ -148,7 +148,7 @@ def training_batches(
     return iter(
         DataLoader(
             samples,
-            batch_sampler=order,  # type: ignore[arg-type]  # PyTorch wants int keys, takes any
+            batch_sampler=order,
             num_workers=config.workers,
             worker_init_fn=_leave_interrupts_to_parent,
             **options,

@@ -1,0 +1,28 @@
+#include "bindings/bindings.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace planformer {
+
+FreeSpace free_space_of(const BlockedArray& blocked, double resolution) {
+    static_assert(sizeof(bool) == sizeof(std::uint8_t));
+    // The core numbers cells with int.
+    if (blocked.size() >= static_cast<std::size_t>(std::numeric_limits<int>::max())) {
+        throw nb::value_error("blocked must have fewer than 2^31 - 1 cells");
+    }
+    if (!(std::isfinite(resolution) && resolution > 0.0)) {
+        throw nb::value_error("resolution must be finite and > 0");
+    }
+    return {static_cast<int>(blocked.shape(0)), static_cast<int>(blocked.shape(1)), resolution,
+            reinterpret_cast<const std::uint8_t*>(blocked.data())};
+}
+
+NumpyArray<double> to_numpy(const std::vector<Pose>& poses) {
+    std::vector<double> values;
+    values.reserve(3 * poses.size());
+    for (const Pose& pose : poses) values.insert(values.end(), {pose.x, pose.y, pose.yaw});
+    return to_numpy(std::move(values), {poses.size(), 3});
+}
+
+}  // namespace planformer
