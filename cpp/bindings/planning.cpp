@@ -1,7 +1,6 @@
 /// Python classes and functions of the planning core.
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/optional.h>
-#include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
@@ -25,18 +24,18 @@ NumpyArray<std::uint32_t> edges_of(const Tree& tree) {
     return to_numpy(std::move(values), {tree.edges.size(), 2});
 }
 
-std::shared_ptr<Region> make_region(const PosesArray& anchors, bool has_heading, double half_width,
+Region make_region(const PosesArray& anchors, bool has_heading, double half_width,
                                     double minor_axis, double yaw_deviation, double area) {
     if (anchors.shape(0) == 0) throw nb::value_error("a region needs at least one anchor");
-    auto region = std::make_shared<Region>();
+    Region region;
     for (std::size_t i = 0; i < anchors.shape(0); ++i) {
-        region->anchors.push_back(to_pose(anchors.data() + 3 * i));
+        region.anchors.push_back(to_pose(anchors.data() + 3 * i));
     }
-    region->has_heading = has_heading;
-    region->half_width = half_width;
-    region->minor_axis = minor_axis;
-    region->yaw_deviation = yaw_deviation;
-    region->area = area;
+    region.has_heading = has_heading;
+    region.half_width = half_width;
+    region.minor_axis = minor_axis;
+    region.yaw_deviation = yaw_deviation;
+    region.area = area;
     return region;
 }
 
@@ -48,7 +47,7 @@ bool python_interrupted() {
 
 Answer run_plan(const BlockedArray& blocked, double resolution, const RobotModel& robot,
                 const std::array<double, 3>& start, const std::array<double, 3>& goal,
-                const std::string& planner, std::shared_ptr<Region> region, double exploration,
+                const std::string& planner, const Region* region, double exploration,
                 const Limits& limits, std::uint32_t seed, bool keep_tree,
                 const Cancellation* cancellation) {
     Query query;
@@ -57,7 +56,9 @@ Answer run_plan(const BlockedArray& blocked, double resolution, const RobotModel
     query.start = to_pose(start.data());
     query.goal = to_pose(goal.data());
     query.planner = planner;
-    query.guidance = {std::move(region), exploration};
+    // A copy: OMPL 1.5 may keep it until the process ends, when Python's objects are gone.
+    if (region) query.guidance.region = std::make_shared<const Region>(*region);
+    query.guidance.exploration = exploration;
     query.limits = limits;
     query.seed = seed;
     query.keep_tree = keep_tree;

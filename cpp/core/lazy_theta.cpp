@@ -31,6 +31,9 @@ struct Node {
     float length;      ///< Length of the best path found from the start [m].
     Index parent : 31;  ///< Index of the parent cell + 1; 0 = untouched.
     Index closed : 1;
+
+    /// `cell` < 2^31 - 1.
+    void set_parent(Index cell) { parent = (cell + 1) & 0x7fffffffU; }
 };
 
 struct FreeMemory {
@@ -139,7 +142,7 @@ private:
     void improve(Index cell, Index parent, double length, Point at) {
         Node& node = nodes_[cell];
         node.length = static_cast<float>(length);
-        node.parent = parent + 1;
+        node.set_parent(parent);
         open_.push_back({static_cast<float>(length + distance(at, goal_)), cell});
         std::push_heap(open_.begin(), open_.end(), is_worse);
     }
@@ -168,7 +171,7 @@ private:
                 static_cast<float>(nodes_[neighbour].length + distance(there, at));
             if (length < best) {
                 best = length;
-                nodes_[cell].parent = neighbour + 1;
+                nodes_[cell].set_parent(neighbour);
             }
         }
         nodes_[cell].length = best;

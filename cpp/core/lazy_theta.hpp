@@ -20,6 +20,7 @@ struct Point {
 /// The search runs over the centres of the free cells; the cells of `start` and `goal` stand for
 /// exactly these points. Every segment of the result satisfies `FreeSpace::segment_is_free`.
 ///
+/// @param space  Fewer than 2^31 - 1 cells.
 /// @return The vertices, `start` first and `goal` last, so at least two of them; empty when
 ///         either point is blocked or no path joins them. The path is within a fraction of a
 ///         percent of the shortest any-angle one in practice, without a guarantee.

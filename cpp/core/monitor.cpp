@@ -2,6 +2,8 @@
 
 #include <ompl/base/PlannerData.h>
 
+#include "core/planners.hpp"
+
 namespace planformer {
 
 namespace ob = ompl::base;
@@ -15,17 +17,20 @@ constexpr double kLengthTolerance = 1e-9;
 
 }  // namespace
 
-std::size_t count_vertices(const ob::Planner& planner) {
+std::size_t count_vertices(const ob::Planner& planner, const StateCount& states) {
+    // Asking these planners for their graph leaks it (OMPL 1.5 keeps it in a static variable), and
+    // each of their samples is checked exactly once.
+    if (samples_in_batches(planner)) return states.accepted;
     ob::PlannerData data(planner.getSpaceInformation());
     planner.getPlannerData(data);
     return data.numVertices();
 }
 
 Monitor::Monitor(const Limits& limits, Clock::time_point started, const ob::Planner& planner,
-                 const StateCount& states, const Cancellation* cancellation, std::function<bool()> interrupted)
+                 StateCountPtr states, const Cancellation* cancellation, std::function<bool()> interrupted)
     : limits_(limits),
       planner_(planner),
-      states_(states),
+      states_(std::move(states)),
       cancellation_(cancellation),
       interrupted_(std::move(interrupted)),
       started_(started),
@@ -58,10 +63,10 @@ bool Monitor::is_interrupted() {
 }
 
 bool Monitor::has_too_many_vertices() {
-    if (states_.alive() < next_vertex_check_ || std::this_thread::get_id() != thread_) return false;
-    const std::size_t vertices = count_vertices(planner_);
+    if (states_->alive < next_vertex_check_ || std::this_thread::get_id() != thread_) return false;
+    const std::size_t vertices = count_vertices(planner_, *states_);
     if (vertices >= limits_.vertices) return true;
-    next_vertex_check_ = states_.alive() + (limits_.vertices - vertices);
+    next_vertex_check_ = states_->alive + (limits_.vertices - vertices);
     return false;
 }
 

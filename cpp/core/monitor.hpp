@@ -2,7 +2,6 @@
 
 #include <ompl/base/Planner.h>
 #include <ompl/base/PlannerTerminationCondition.h>
-#include <ompl/base/State.h>
 
 #include <atomic>
 #include <chrono>
@@ -10,7 +9,8 @@
 #include <functional>
 #include <limits>
 #include <thread>
-#include <utility>
+
+#include "core/state_count.hpp"
 
 namespace planformer {
 
@@ -46,48 +46,14 @@ private:
     std::atomic<bool> cancelled_{false};
 };
 
-/// The number of states that a state space has handed out and not got back.
-///
-/// It bounds the vertices of every planner from above at no cost, so that the exact count, which
-/// OMPL only offers as a copy of the whole graph, is taken only when it can matter.
-class StateCount {
-public:
-    void add() { alive_.fetch_add(1, std::memory_order_relaxed); }
-    void remove() { alive_.fetch_sub(1, std::memory_order_relaxed); }
-    std::size_t alive() const { return alive_.load(std::memory_order_relaxed); }
-
-private:
-    std::atomic<std::size_t> alive_{0};
-};
-
-/// A state space that counts its states.
-template <typename Space>
-class Counted : public Space {
-public:
-    template <typename... Args>
-    explicit Counted(StateCount* count, Args&&... args)
-        : Space(std::forward<Args>(args)...), count_(count) {}
-
-    ompl::base::State* allocState() const override {
-        count_->add();
-        return Space::allocState();
-    }
-
-    void freeState(ompl::base::State* state) const override {
-        count_->remove();
-        Space::freeState(state);
-    }
-
-private:
-    StateCount* count_;
-};
-
 /// Ends a search at its limits and remembers which of them it was.
 class Monitor {
 public:
-    /// The time limit counts from `started`; `interrupted` is asked about every 20 ms from the planning thread; it may be empty.
-    Monitor(const Limits& limits, Clock::time_point started, const ompl::base::Planner& planner, const StateCount& states,
-            const Cancellation* cancellation, std::function<bool()> interrupted);
+    /// The time limit counts from `started`. `interrupted` is asked about every 20 ms from the
+    /// planning thread; it may be empty.
+    Monitor(const Limits& limits, Clock::time_point started, const ompl::base::Planner& planner,
+            StateCountPtr states, const Cancellation* cancellation,
+            std::function<bool()> interrupted);
 
     ompl::base::PlannerTerminationCondition condition();
 
@@ -101,7 +67,7 @@ private:
 
     Limits limits_;
     const ompl::base::Planner& planner_;
-    const StateCount& states_;
+    StateCountPtr states_;
     const Cancellation* cancellation_;
     std::function<bool()> interrupted_;
     Clock::time_point started_;
@@ -112,6 +78,6 @@ private:
 };
 
 /// The collision-free states in the planner's trees or roadmap.
-std::size_t count_vertices(const ompl::base::Planner& planner);
+std::size_t count_vertices(const ompl::base::Planner& planner, const StateCount& states);
 
 }  // namespace planformer

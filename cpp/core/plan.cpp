@@ -32,7 +32,7 @@ ob::RealVectorBounds bounds_of(const Extent& extent) {
     return bounds;
 }
 
-ob::StateSpacePtr make_space(const RobotModel& robot, const Extent& extent, StateCount* count) {
+ob::StateSpacePtr make_space(const RobotModel& robot, const Extent& extent, const StateCountPtr& count) {
     if (robot.kind == RobotKind::kPoint) {
         auto space = std::make_shared<Counted<ob::RealVectorStateSpace>>(count, 2u);
         space->setBounds(bounds_of(extent));
@@ -44,7 +44,7 @@ ob::StateSpacePtr make_space(const RobotModel& robot, const Extent& extent, Stat
 }
 
 ob::SpaceInformationPtr make_space_information(const Query& query, const Extent& extent,
-                                               StateCount* count) {
+                                               const StateCountPtr& count) {
     const ob::StateSpacePtr space = make_space(query.robot, extent, count);
     space->setStateSamplerAllocator(
         [guidance = query.guidance, extent, seed = query.seed](const ob::StateSpace* s) {
@@ -53,7 +53,7 @@ ob::SpaceInformationPtr make_space_information(const Query& query, const Extent&
             });
         });
     auto si = std::make_shared<ob::SpaceInformation>(space);
-    si->setStateValidityChecker(std::make_shared<GridValidityChecker>(si, query.free_space));
+    si->setStateValidityChecker(std::make_shared<GridValidityChecker>(si, query.free_space, count));
     si->setMotionValidator(std::make_shared<GridMotionValidator>(si, query.free_space));
     si->setup();
     return si;
@@ -77,8 +77,9 @@ ob::ProblemDefinitionPtr make_problem(const Query& query, const Extent& extent,
 std::vector<Pose> read_path(const og::PathGeometric& path, double step) {
     const ob::StateSpace& space = *path.getSpaceInformation()->getStateSpace();
     const auto* car = dynamic_cast<const CarSpace*>(&space);
+    const auto count = static_cast<unsigned int>(path.getStateCount());
     std::vector<Pose> poses{read_state(space, path.getState(0))};
-    for (std::size_t i = 1; i < path.getStateCount(); ++i) {
+    for (unsigned int i = 1; i < count; ++i) {
         const Pose target = read_state(space, path.getState(i));
         if (car == nullptr) {
             poses.push_back(target);
@@ -92,8 +93,8 @@ std::vector<Pose> read_path(const og::PathGeometric& path, double step) {
 Answer plan_geometric(const Query& query) {
     const auto started = Clock::now();
     const Extent extent{query.free_space.extent_x(), query.free_space.extent_y()};
-    StateCount states;  // outlives the planner and its states
-    const auto si = make_space_information(query, extent, &states);
+    const auto states = std::make_shared<StateCount>();
+    const auto si = make_space_information(query, extent, states);
     const auto problem = make_problem(query, extent, si);
     const ob::PlannerPtr planner = seeded(query.seed, [&] {
         ob::PlannerPtr made = make_planner(query.planner, si);
@@ -114,7 +115,7 @@ Answer plan_geometric(const Query& query) {
     }
     answer.outcome = monitor.outcome(answer.length);
     answer.seconds = seconds_since(started);
-    answer.vertices = count_vertices(*planner);
+    answer.vertices = count_vertices(*planner, *states);
     if (query.keep_tree) answer.tree = read_tree(*planner);
     return answer;
 }

@@ -70,6 +70,15 @@ ob::PlannerPtr make_planner(const std::string& name, const ob::SpaceInformationP
     return nullptr;
 }
 
+bool samples_in_batches(const ob::Planner& planner) {
+    // ABIT* is a BIT*, EIRM* an EIT*.
+#ifdef PLANFORMER_HAS_EITSTAR
+    if (dynamic_cast<const og::EITstar*>(&planner) != nullptr) return true;
+#endif
+    return dynamic_cast<const og::BITstar*>(&planner) != nullptr ||
+           dynamic_cast<const og::AITstar*>(&planner) != nullptr;
+}
+
 std::vector<std::string> planner_names(RobotKind robot) {
     std::vector<std::string> names;
     for (const Entry& entry : kPlanners) {

@@ -14,6 +14,9 @@ enum class RobotKind { kPoint, kCar };
 ompl::base::PlannerPtr make_planner(const std::string& name,
                                     const ompl::base::SpaceInformationPtr& si);
 
+/// Whether the planner draws its samples in batches into one graph: BIT* and its relatives.
+bool samples_in_batches(const ompl::base::Planner& planner);
+
 /// The class names this build has for the robot, SST (see sst.hpp) included.
 std::vector<std::string> planner_names(RobotKind robot);
 

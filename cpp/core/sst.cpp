@@ -131,7 +131,7 @@ private:
     std::shared_ptr<const CarGoal> goal_;
 };
 
-ob::StateSpacePtr make_space(const Query& query, const Extent& extent, StateCount* count) {
+ob::StateSpacePtr make_space(const Query& query, const Extent& extent, const StateCountPtr& count) {
     auto space = std::make_shared<Counted<ob::SE2StateSpace>>(count);
     ob::RealVectorBounds bounds(2);
     bounds.setLow(0.0);
@@ -164,10 +164,10 @@ oc::ControlSpacePtr make_controls(const Query& query, const ob::StateSpacePtr& s
 
 std::shared_ptr<oc::SpaceInformation> make_space_information(const Query& query,
                                                              const Extent& extent,
-                                                             StateCount* count) {
+                                                             const StateCountPtr& count) {
     const ob::StateSpacePtr space = make_space(query, extent, count);
     auto si = std::make_shared<oc::SpaceInformation>(space, make_controls(query, space));
-    si->setStateValidityChecker(std::make_shared<GridValidityChecker>(si, query.free_space));
+    si->setStateValidityChecker(std::make_shared<GridValidityChecker>(si, query.free_space, count));
     si->setMotionValidator(std::make_shared<GridMotionValidator>(si, query.free_space));
     si->setStatePropagator(std::make_shared<CarPropagator>(si.get(), query.free_space,
                                                            query.robot.wheelbase));
@@ -203,7 +203,8 @@ void read_path(const Query& query, const CarGoal& goal, oc::PathControl& path, A
     const double spacing = kArcStep * query.free_space.resolution;
     answer->path.push_back(read_state(space, path.getState(0)));
     answer->length = 0.0;
-    for (std::size_t i = 0; i < path.getControlCount(); ++i) {
+    const auto controls = static_cast<unsigned int>(path.getControlCount());
+    for (unsigned int i = 0; i < controls; ++i) {
         const int steps = static_cast<int>(std::lround(path.getControlDuration(i) / kStepSeconds));
         Pose pose = read_state(space, path.getState(i));
         // Step by step, as it was propagated, so that the very chords that were checked come back.
@@ -214,7 +215,7 @@ void read_path(const Query& query, const CarGoal& goal, oc::PathControl& path, A
             append_motion(arc, pose, spacing, &answer->path);
         }
     }
-    const Curve last = goal.final_curve(path.getState(path.getStateCount() - 1));
+    const Curve last = goal.final_curve(path.getState(controls));  // one state more than controls
     answer->length += last.length();
     append_motion(last, goal.goal(), spacing, &answer->path);
 }
@@ -224,8 +225,8 @@ void read_path(const Query& query, const CarGoal& goal, oc::PathControl& path, A
 Answer plan_sst(const Query& query) {
     const auto started = Clock::now();
     const Extent extent{query.free_space.extent_x(), query.free_space.extent_y()};
-    StateCount states;  // outlives the planner and its states
-    const auto si = make_space_information(query, extent, &states);
+    const auto states = std::make_shared<StateCount>();
+    const auto si = make_space_information(query, extent, states);
     const auto problem = make_problem(query, si);
     const auto planner = seeded(query.seed, [&] {
         auto made = std::make_shared<oc::SST>(si);
@@ -245,7 +246,7 @@ Answer plan_sst(const Query& query) {
     }
     answer.outcome = monitor.outcome(answer.length);
     answer.seconds = seconds_since(started);
-    answer.vertices = count_vertices(*planner);
+    answer.vertices = count_vertices(*planner, *states);
     if (query.keep_tree) answer.tree = read_tree(*planner);
     return answer;
 }

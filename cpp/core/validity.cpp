@@ -26,12 +26,14 @@ void append_motion(const Curve& curve, const Pose& target, double step, std::vec
 }
 
 GridValidityChecker::GridValidityChecker(const ob::SpaceInformationPtr& si,
-                                         const FreeSpace& free_space)
-    : ob::StateValidityChecker(si), free_space_(free_space) {}
+                                         const FreeSpace& free_space, StateCountPtr count)
+    : ob::StateValidityChecker(si), free_space_(free_space), count_(std::move(count)) {}
 
 bool GridValidityChecker::isValid(const ob::State* state) const {
     const Pose pose = read_state(*si_->getStateSpace(), state);
-    return free_space_.is_free(pose.x, pose.y);
+    const bool free = free_space_.is_free(pose.x, pose.y);
+    if (free) count_->accepted.fetch_add(1, std::memory_order_relaxed);
+    return free;
 }
 
 GridMotionValidator::GridMotionValidator(const ob::SpaceInformationPtr& si,

@@ -35,6 +35,17 @@ def test_missing_shards_are_made_again_and_the_others_kept(small_dataset, small_
     assert (small_dataset / "forest-00001.npz").stat().st_mtime_ns == kept
 
 
+def test_indoor_maps_have_problems_too(tmp_path):
+    generate_dataset(
+        tmp_path, kinds=["indoor"], maps=2, paths_per_map=3, workers=1, show_progress=False
+    )
+    dataset = PathDataset(tmp_path)
+    assert len(dataset) == 6
+    assert {recipe.kind for recipe in dataset.recipes} == {"indoor"}
+    expected = dataset.recipes[1].generate().blocked(0.1)
+    np.testing.assert_array_equal(dataset.blocked_map(1), expected)
+
+
 def test_the_seed_and_the_index_decide_on_a_map(small_dataset, small_settings, tmp_path):
     more = {**small_settings, "maps": 4, "kinds": ["maze"]}
     generate_dataset(tmp_path / "more", workers=1, **more)

@@ -80,8 +80,10 @@ def test_damage_is_noticed_or_harmless(shard_file, data):
     [
         ({"recipes": ()}, "a map"),
         ({"checksums": np.zeros(3, np.uint32)}, "checksum"),
-        ({"map_index": np.full(12, 4)}, "map indices"),
+        ({"map_index": np.full(12, 4)}, "map indices inside"),
+        ({"map_index": np.zeros((12, 2), int)}, "map indices of shape"),
         ({"offsets": np.arange(0, 26, 2)}, "offsets from 0 to V"),
+        ({"offsets": np.empty(0, int)}, "an offset more than paths"),
         ({"offsets": np.arange(5)}, "an offset more than paths"),
         ({"vertices": np.zeros((60, 3))}, "shape"),
         ({"vertices": np.full((60, 2), np.nan)}, "finite"),

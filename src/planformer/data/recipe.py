@@ -12,10 +12,12 @@ from numpy.typing import NDArray
 from planformer.errors import InvalidParameter
 from planformer.maps.forest import generate_forest
 from planformer.maps.grid import OccupancyGrid
+from planformer.maps.indoor import generate_indoor
 from planformer.maps.maze import generate_maze
 
 GENERATORS: dict[str, Callable[..., OccupancyGrid]] = {
     "forest": generate_forest,
+    "indoor": generate_indoor,
     "maze": generate_maze,
 }
 """The map generators by the name of the kind of map that they make."""

@@ -74,9 +74,10 @@ class Shard:
             ("a checksum a map", self.checksums.shape == (maps,)),
             ("vertices of shape (V, 2)", self.vertices.shape == (vertices, 2)),
             ("finite vertices", np.isfinite(self.vertices).all()),
+            ("map indices of shape (P,)", self.map_index.shape == (paths,)),
             ("map indices inside the shard", _all_in(self.map_index, 0, maps - 1)),
             ("an offset more than paths", self.offsets.shape == (paths + 1,)),
-            ("offsets from 0 to V", self.offsets[:1] == 0 and self.offsets[-1:] == vertices),
+            ("offsets from 0 to V", _ends(self.offsets) == [0, vertices]),
             ("two vertices or more a path", _all_in(np.diff(self.offsets), 2, vertices)),
         ):
             if not holds:
@@ -144,3 +145,7 @@ def _recipes(arrays: Mapping[str, NDArray[Any]]) -> tuple[MapRecipe, ...]:
 
 def _all_in(values: NDArray[np.int64], low: int, high: int) -> bool:
     return bool(np.all((values >= low) & (values <= high)))
+
+
+def _ends(offsets: NDArray[np.int64]) -> list[int]:
+    return [*offsets[:1].tolist(), *offsets[-1:].tolist()]

@@ -60,8 +60,9 @@ def _moves(
     """The eight steps as (flat offset, cost), and for each the cells that it may leave, flat."""
     moves, open_moves = [], []
     for dr, dc in ((0, 1), (0, -1), (1, 0), (-1, 0), (1, 1), (1, -1), (-1, 1), (-1, -1)):
-        side_cells_free = np.roll(free, -dr, axis=0) & np.roll(free, -dc, axis=1)
-        may = np.roll(free, (-dr, -dc), axis=(0, 1)) & side_cells_free
+        may = np.roll(free, (-dr, -dc), axis=(0, 1))
+        if dr and dc:
+            may &= np.roll(free, -dr, axis=0) & np.roll(free, -dc, axis=1)
         moves.append((dr * free.shape[1] + dc, math.hypot(dr, dc)))
         open_moves.append(may.ravel())
     return moves, open_moves

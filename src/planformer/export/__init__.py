@@ -1,5 +1,6 @@
 """Export of trained networks for ONNX Runtime."""
 
+import planformer.models  # noqa: F401  # says how to install PyTorch where it is missing
 from planformer.export.onnx import Exported, export
 
 __all__ = ["Exported", "export"]

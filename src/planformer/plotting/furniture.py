@@ -8,14 +8,14 @@ import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
-from matplotlib.transforms import blended_transform_factory
 
 from planformer.planning import PlanResult, PlanStatus
 from planformer.plotting import style
 from planformer.plotting.layout import Layout
 from planformer.robots import Robot
 
-_SCALE_BAR_SHARE = 0.2
+_SCALE_BAR = 1.5
+"""Greatest length of the scale bar in inches."""
 
 
 def draw_furniture(layout: Layout, robot: Robot, result: PlanResult, title: str | None) -> None:
@@ -102,8 +102,14 @@ def _handles(robot: Robot, result: PlanResult) -> list[Artist]:
     symbols = (">", ">") if robot.state_dimension == 3 else ("o", "*")
     handles: list[Artist] = [
         Line2D(
-            [], [], linestyle="none", marker=symbol, markersize=size, label=label,
-            markerfacecolor=colour, markeredgecolor=style.HALO,
+            [],
+            [],
+            linestyle="none",
+            marker=symbol,
+            markersize=size,
+            label=label,
+            markerfacecolor=colour,
+            markeredgecolor=style.HALO,
         )
         for label, colour, symbol, size in (
             ("start", style.START, symbols[0], 9.0),
@@ -137,17 +143,12 @@ def _draw_colour_bar(layout: Layout) -> None:
 
 
 def _draw_scale_bar(layout: Layout) -> None:
-    """Draw a bar of a round number of metres under the right end of the map."""
-    axes = layout.axes
-    low, high = axes.get_xlim()
-    length = nice_length(_SCALE_BAR_SHARE * (high - low))
-    place = blended_transform_factory(axes.transData, layout.figure.transFigure)
-    _, y = layout.at(0.0, -0.27)
-    bar = {"color": style.INK, "linewidth": 1.6, "solid_capstyle": "butt", "clip_on": False}
-    axes.plot([high - length, high], [y, y], transform=place, **bar)
-    for x in (high - length, high):
-        axes.plot(x, y, marker="|", markersize=6, color=style.INK, transform=place, clip_on=False)
-    axes.text(
-        high - 0.5 * length, layout.at(0.0, -0.33)[1], f"{length:g} m",
-        transform=place, size=8.5, color=style.INK, ha="center", va="bottom",
-    )
+    """Draw a bar of a round number of metres in the lower right corner."""
+    figure, scale = layout.figure, layout.inches_per_metre()
+    length = nice_length(_SCALE_BAR / scale)
+    ends = [layout.at(-0.25 - length * scale, -0.26), layout.at(-0.25, -0.26)]
+    x, y = zip(*ends, strict=True)
+    figure.add_artist(Line2D(x, y, color=style.INK, linewidth=1.6, solid_capstyle="butt"))
+    figure.add_artist(Line2D(x, y, color=style.INK, linestyle="none", marker="|", markersize=6))
+    middle = layout.at(-0.25 - 0.5 * length * scale, -0.32)
+    figure.text(*middle, f"{length:g} m", size=8.5, color=style.INK, ha="center", va="bottom")

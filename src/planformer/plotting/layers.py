@@ -18,14 +18,14 @@ from planformer.guidance import Region
 from planformer.maps import OccupancyGrid
 from planformer.planning import PlanResult, Tree
 from planformer.plotting import style
-from planformer.plotting.raster import resized
+from planformer.plotting.raster import image_shape, resized
 from planformer.robots import DubinsCar, Robot
 
 _OUTLINE_PIXELS = 1600
 _MAX_EDGES = 60_000
 """Beyond this a tree is a solid area, and drawing it takes seconds."""
-_MIN_OPACITY, _MAX_OPACITY = 0.1, 0.7
-_SPARSE = 40.0
+_MIN_OPACITY, _MAX_OPACITY = 0.06, 0.7
+_SPARSE = 30.0
 """Length of a tree in diagonals of its extent up to which it is drawn with full opacity."""
 _DART = np.array([(1.0, 0.0), (-0.8, 0.72), (-0.42, 0.0), (-0.8, -0.72)])
 _CAR = np.array([(0.9, 0.0), (0.62, 0.42), (-0.9, 0.42), (-0.9, -0.42), (0.62, -0.42)])
@@ -45,13 +45,12 @@ def draw_region(axes: Axes, grid: OccupancyGrid, region: Region) -> None:
 
 def outline(grid: OccupancyGrid, mask: NDArray[np.bool_]) -> list[NDArray[np.float64]]:
     """Closed outlines (N, 2) of a (H, W) bool mask, metres in the map's own frame."""
-    factor = max(1.0, max(mask.shape) / _OUTLINE_PIXELS)
-    rows, columns = (max(1, round(side / factor)) for side in mask.shape)
+    rows, columns = image_shape(mask.shape, _OUTLINE_PIXELS)
     padded = np.pad(resized(mask, (rows, columns)), 1)
     x = (np.arange(columns + 2) - 0.5) * (grid.width / columns)
     y = (np.arange(rows + 2) - 0.5) * (grid.height / rows)
     lines = contourpy.contour_generator(x, y, padded).lines(0.5)
-    return [np.clip(line, 0.0, (grid.width, grid.height)) for line in lines]
+    return [np.clip(np.asarray(line), 0.0, (grid.width, grid.height)) for line in lines]
 
 
 def draw_tree(axes: Axes, robot: Robot, tree: Tree) -> None:
@@ -85,14 +84,14 @@ def edge_lines(
     step = robot.turning_radius / 6.0
     poses = np.ascontiguousarray(vertices)
     return [
-        _core.curve_poses(
-            poses[parent], poses[child], robot.turning_radius, robot.reverses, step
-        )[:, :2]
+        _core.curve_poses(poses[parent], poses[child], robot.turning_radius, robot.reverses, step)[
+            :, :2
+        ]
         for parent, child in edges
     ]
 
 
-def draw_path(axes: Axes, grid: OccupancyGrid, robot: Robot, result: PlanResult) -> None:
+def draw_path(axes: Axes, robot: Robot, result: PlanResult) -> None:
     """Draw the path with a halo and, for a car, some outlines of the car along it."""
     halo = patheffects.withStroke(linewidth=5.4, foreground=style.HALO, alpha=0.9)
     axes.plot(
@@ -106,7 +105,7 @@ def draw_path(axes: Axes, grid: OccupancyGrid, robot: Robot, result: PlanResult)
     )
     if robot.state_dimension == 3:
         # A small robot on a large map is drawn larger than it is: its heading must be seen.
-        size = max(robot.radius, 0.009 * max(grid.width, grid.height))
+        size = max(robot.radius, 0.009 * max(np.ptp(axes.get_xlim()), np.ptp(axes.get_ylim())))
         axes.add_collection(
             PolyCollection(
                 car_outlines(result.path, size),

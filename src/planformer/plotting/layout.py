@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
-from planformer.maps import OccupancyGrid
+from planformer.plotting.view import View
 
 DPI = 160
 _AREA = 56.0
@@ -38,10 +36,18 @@ class Layout:
         width, height = self.figure.get_size_inches()
         return (x % width) / width, ((-y) % height) / height
 
+    def inches_per_metre(self) -> float:
+        """The map's scale on paper."""
+        box = self.axes.get_position(original=True)
+        figure_width, figure_height = self.figure.get_size_inches()
+        (left, right), (low, high) = self.axes.get_xlim(), self.axes.get_ylim()
+        across = box.width * figure_width / (right - left)
+        return float(min(across, box.height * figure_height / (high - low)))
 
-def make_layout(grid: OccupancyGrid) -> Layout:
-    """Lay out a picture of a map: wide, tall and turned ones alike fill it."""
-    low, high = world_bounds(grid)
+
+def make_layout(view: View) -> Layout:
+    """Lay out a picture: wide, tall and turned maps alike fill it."""
+    low, high = view.world_bounds()
     width, height = _map_size(*(high - low))
     figure = Figure(
         figsize=(max(width, _MIN_WIDTH) + _LEFT + _RIGHT, height + _TOP + _BOTTOM),
@@ -62,13 +68,6 @@ def make_layout(grid: OccupancyGrid) -> Layout:
     axes.set_ylim(low[1], high[1])
     axes.set_autoscale_on(False)
     return Layout(figure, axes)
-
-
-def world_bounds(grid: OccupancyGrid) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Lowest and highest (x, y) of a map's corners in the world frame, metres."""
-    corners = [(x, y) for x in (0.0, grid.width) for y in (0.0, grid.height)]
-    world = grid.frame.to_world(corners)
-    return world.min(axis=0), world.max(axis=0)
 
 
 def _map_size(width: float, height: float) -> tuple[float, float]:

@@ -9,41 +9,38 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planformer.guidance import Region
-from planformer.maps import OccupancyGrid
 from planformer.plotting import style
+from planformer.plotting.view import View
 
 _THIN_WALLS = 0.6
 """Exponent on the share of a shrunk pixel that is occupied: walls a cell wide stay visible."""
 
 
 def map_image(
-    grid: OccupancyGrid,
-    radius: float,
-    region: Region | None,
-    *,
-    pixels: int,
+    view: View, radius: float, region: Region | None, *, pixels: int
 ) -> NDArray[np.float32]:
-    """Draw a map in its own frame.
+    """Draw the part of a map that a view shows, in the map's own frame.
 
     Args:
-        grid: The map.
+        view: The part of the map.
         radius: Radius of the robot in metres; its margin round obstacles is shaded.
         region: Its probability is drawn as a heat map on the floor; None for a bare map.
-        pixels: Wanted size of the longer side. A smaller map is enlarged by a whole factor.
+        pixels: Wanted size of the longer side. A smaller part is enlarged by a whole factor.
 
     Returns:
         (h, w, 3) float32 colours in [0, 1], row 0 at the lowest y.
     """
-    shape = _image_shape(grid.shape, pixels)
+    grid = view.grid
+    shape = image_shape(view.shape, pixels)
     image = np.empty((*shape, 3), np.float32)
     image[:] = style.rgb(style.FLOOR)
     margin = grid.blocked(radius) & ~grid.occupied
-    _blend(image, style.rgb(style.MARGIN), resized(margin, shape))
+    _blend(image, style.rgb(style.MARGIN), resized(view.of(margin), shape))
     if region is not None:
-        heat = style.heat_colours()(heat_values(grid, region, shape)).astype(np.float32)
+        heat = style.heat_colours()(heat_values(view, region, shape)).astype(np.float32)
         _blend(image, heat[..., :3], heat[..., 3])
-    _blend(image, style.rgb(style.UNKNOWN), resized(grid.unknown, shape))
-    known = resized(grid.occupied & ~grid.unknown, shape) ** _THIN_WALLS
+    _blend(image, style.rgb(style.UNKNOWN), resized(view.of(grid.unknown), shape))
+    known = resized(view.of(grid.occupied & ~grid.unknown), shape) ** _THIN_WALLS
     _blend(image, style.rgb(style.OBSTACLE), known)
     return image
 
@@ -60,13 +57,12 @@ def resized(mask: NDArray[np.bool_], shape: tuple[int, int]) -> NDArray[np.float
     )
 
 
-def heat_values(
-    grid: OccupancyGrid, region: Region, shape: tuple[int, int]
-) -> NDArray[np.float32]:
+def heat_values(view: View, region: Region, shape: tuple[int, int]) -> NDArray[np.float32]:
     """The probabilities between the anchors, (h, w) float32, at the pixels of an image."""
-    anchors = grid.frame.to_local(region.anchors)
-    at_column = _fractional_index(anchors[0, :, 0], grid.width, shape[1])
-    at_row = _fractional_index(anchors[:, 0, 1], grid.height, shape[0])
+    anchors = view.grid.frame.to_local(region.anchors)
+    left, right, bottom, top = view.extent
+    at_column = _fractional_index(anchors[0, :, 0], left, right, shape[1])
+    at_row = _fractional_index(anchors[:, 0, 1], bottom, top, shape[0])
     columns, rows = np.meshgrid(at_column, at_row)
     values = cv2.remap(
         np.ascontiguousarray(region.probability, np.float32),
@@ -79,15 +75,16 @@ def heat_values(
 
 
 def _fractional_index(
-    positions: NDArray[np.float64], extent: float, pixels: int
+    positions: NDArray[np.float64], low: float, high: float, pixels: int
 ) -> NDArray[np.float32]:
-    """Where each pixel's centre lies among evenly spaced positions, counted in spacings."""
-    centres = (np.arange(pixels) + 0.5) * (extent / pixels)
-    spacing = positions[1] - positions[0] if len(positions) > 1 else extent
+    """Where the centre of each pixel from low to high lies among evenly spaced positions."""
+    centres = low + (np.arange(pixels) + 0.5) * ((high - low) / pixels)
+    spacing = positions[1] - positions[0] if len(positions) > 1 else 1.0
     return np.asarray((centres - positions[0]) / spacing, np.float32)
 
 
-def _image_shape(shape: tuple[int, int], pixels: int) -> tuple[int, int]:
+def image_shape(shape: tuple[int, int], pixels: int) -> tuple[int, int]:
+    """Size of an image of (H, W) cells: the longer side shrunk to `pixels` or a multiple below."""
     longer = max(shape)
     if longer <= pixels:
         factor = pixels // longer

@@ -14,6 +14,7 @@ from planformer.plotting.furniture import draw_furniture
 from planformer.plotting.layers import draw_ends, draw_path, draw_region, draw_tree
 from planformer.plotting.layout import DPI, Layout, make_layout
 from planformer.plotting.raster import map_image
+from planformer.plotting.view import View, make_view
 from planformer.robots import Robot
 
 
@@ -28,9 +29,10 @@ def plot_result(
 ) -> Figure:
     """Draw a plan: map, region proposal, search tree, path, start and goal.
 
-    The axes are metres in the world frame; a turned map is drawn turned. The tree is drawn where
-    the plan kept it (`keep_tree=True`). Nothing of Matplotlib's global state is used, so that
-    pictures may be drawn in any thread and beside the caller's own figures.
+    The axes are metres in the world frame; a turned map is drawn turned, unknown space round the
+    observed part is cut off. The tree is drawn where the plan kept it (`keep_tree=True`). Nothing
+    of Matplotlib's global state is used, so that pictures may be drawn in any thread and beside
+    the caller's own figures.
 
     Args:
         grid: The map.
@@ -43,26 +45,28 @@ def plot_result(
     Returns:
         A Matplotlib figure; see `save_picture`.
     """
-    layout = make_layout(grid)
-    _draw_map(layout, grid, robot, result)
+    ends = [np.asarray(state, np.float64) for state in (start, goal)]
+    view = make_view(grid, [state[:2] for state in ends])
+    layout = make_layout(view)
+    _draw_map(layout, view, robot, result)
     if result.region is not None:
         draw_region(layout.axes, grid, result.region)
     if result.tree is not None:
         draw_tree(layout.axes, robot, result.tree)
     if result.solved:
-        draw_path(layout.axes, grid, robot, result)
-    draw_ends(layout.axes, *(np.asarray(state, np.float64) for state in (start, goal)))
+        draw_path(layout.axes, robot, result)
+    draw_ends(layout.axes, *ends)
     draw_furniture(layout, robot, result, title)
     return layout.figure
 
 
-def _draw_map(layout: Layout, grid: OccupancyGrid, robot: Robot, result: PlanResult) -> None:
-    x, y, yaw = grid.origin
+def _draw_map(layout: Layout, view: View, robot: Robot, result: PlanResult) -> None:
+    x, y, yaw = view.grid.origin
     longer = layout.figure.get_size_inches().max() * DPI
     image = layout.axes.imshow(
-        map_image(grid, robot.radius, result.region, pixels=int(longer)),
+        map_image(view, robot.radius, result.region, pixels=int(longer)),
         origin="lower",
-        extent=(0.0, grid.width, 0.0, grid.height),
+        extent=view.extent,
         interpolation="antialiased",
         aspect="equal",
         zorder=1,

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 FLOOR = "#fbf8f1"
 MARGIN = "#efeae0"
-UNKNOWN = "#b4b8bc"
+UNKNOWN = "#bdc1c5"
 OBSTACLE = "#2b3441"
 
 INK = "#20262e"

@@ -1,5 +1,6 @@
 """Training of the region proposal networks."""
 
+import planformer.models  # noqa: F401  # says how to install PyTorch where it is missing
 from planformer.training.config import Recipe, TrainConfig
 from planformer.training.train import Progress, TrainResult, train
 from planformer.training.validation import validate

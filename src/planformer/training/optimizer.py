@@ -34,14 +34,11 @@ def learning_rate(config: TrainConfig, *, step: int, seconds: float) -> float:
         step: Steps taken so far.
         seconds: Training time so far.
     """
-    warmup = max(config.warmup_steps, 1)
+    warmup = float(max(config.warmup_steps, 1))
     if config.recipe is Recipe.PAPER:
-        number = step + 1
-        return (
-            0.5
-            / math.sqrt(_PAPER_WIDTH)
-            * min(1 / math.sqrt(number), number * float(warmup) ** -1.5)
-        )
+        number = float(step + 1)
+        rise, fall = number / (warmup * math.sqrt(warmup)), 1 / math.sqrt(number)
+        return 0.5 / math.sqrt(_PAPER_WIDTH) * min(rise, fall)
     progress = min(_progress(config, step, seconds), 1.0)
     cosine = _FLOOR + (1 - _FLOOR) * 0.5 * (1 + math.cos(math.pi * progress))
     return config.learning_rate * min((step + 1) / warmup, 1.0) * cosine

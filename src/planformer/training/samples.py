@@ -151,6 +151,7 @@ def training_batches(
             batch_sampler=order,
             num_workers=config.workers,
             worker_init_fn=_leave_interrupts_to_parent,
+            generator=torch.Generator(),  # the loader must not draw from the training's
             **options,
         )
     )
