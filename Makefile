@@ -24,7 +24,10 @@ DEV_READY := $(VENV)/.stamp-dev
 ## demo: plan with MPT-RRT* on a generated floor plan and draw it to demo/
 .PHONY: demo
 demo: $(PACKAGE_READY)
-	$(BIN)/planformer plan demo/map.yaml
+	mkdir -p demo
+	$(BIN)/planformer map indoor --seed 4 --output demo/map.yaml
+	$(BIN)/planformer plan demo/map.yaml --start 1.5 1.5 --goal 22.5 22.5 \
+	    --planner RRTstar --guide $(DEMO_GUIDE) --time-limit 2 --seed 1 --output demo
 
 ## test: run the test suite
 .PHONY: test

@@ -37,7 +37,8 @@ inline Pose to_pose(const double* xy_yaw) { return {xy_yaw[0], xy_yaw[1], xy_yaw
 template <typename T>
 NumpyArray<T> to_numpy(std::vector<T> values, std::initializer_list<std::size_t> shape) {
     auto* owned = new std::vector<T>(std::move(values));
-    const nb::capsule owner(owned, [](void* p) noexcept { delete static_cast<std::vector<T>*>(p); });
+    const nb::capsule owner(owned,
+                            [](void* p) noexcept { delete static_cast<std::vector<T>*>(p); });
     return {owned->data(), shape, owner};
 }
 

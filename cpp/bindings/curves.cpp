@@ -40,8 +40,8 @@ NumpyArray<double> curve_lengths(const PosesArray& starts, const PosesArray& goa
     return to_numpy(std::move(lengths), {count});
 }
 
-NumpyArray<double> curve_poses(const PoseArray& start, const PoseArray& goal,
-                               double turning_radius, bool reverse, double step) {
+NumpyArray<double> curve_poses(const PoseArray& start, const PoseArray& goal, double turning_radius,
+                               bool reverse, double step) {
     require_positive("turning_radius", turning_radius);
     require_positive("step", step);
     std::vector<Pose> poses;

@@ -25,7 +25,7 @@ NumpyArray<std::uint32_t> edges_of(const Tree& tree) {
 }
 
 Region make_region(const PosesArray& anchors, bool has_heading, double half_width,
-                                    double minor_axis, double yaw_deviation, double area) {
+                   double minor_axis, double yaw_deviation, double area) {
     if (anchors.shape(0) == 0) throw nb::value_error("a region needs at least one anchor");
     Region region;
     for (std::size_t i = 0; i < anchors.shape(0); ++i) {
@@ -88,24 +88,26 @@ void register_planning(nb::module_& m) {
         .value("CANCELLED", Outcome::kCancelled);
 
     nb::class_<RobotModel>(m, "RobotModel")
-        .def("__init__",
-             [](RobotModel* self, RobotKind kind, double turning_radius, bool reverse,
-                double wheelbase, double max_speed) {
-                 new (self) RobotModel{kind, turning_radius, reverse, wheelbase, max_speed};
-             },
-             nb::arg("kind"), nb::arg("turning_radius") = 0.0, nb::arg("reverse") = false,
-             nb::arg("wheelbase") = 0.0, nb::arg("max_speed") = 0.0);
+        .def(
+            "__init__",
+            [](RobotModel* self, RobotKind kind, double turning_radius, bool reverse,
+               double wheelbase, double max_speed) {
+                new (self) RobotModel{kind, turning_radius, reverse, wheelbase, max_speed};
+            },
+            nb::arg("kind"), nb::arg("turning_radius") = 0.0, nb::arg("reverse") = false,
+            nb::arg("wheelbase") = 0.0, nb::arg("max_speed") = 0.0);
     nb::class_<Limits>(m, "Limits")
-        .def("__init__",
-             [](Limits* self, std::optional<double> seconds, std::optional<double> target_length,
-                std::optional<std::size_t> vertices) {
-                 new (self) Limits{};
-                 if (seconds) self->seconds = *seconds;
-                 if (target_length) self->target_length = *target_length;
-                 if (vertices) self->vertices = *vertices;
-             },
-             nb::arg("seconds") = nb::none(), nb::arg("target_length") = nb::none(),
-             nb::arg("vertices") = nb::none());
+        .def(
+            "__init__",
+            [](Limits* self, std::optional<double> seconds, std::optional<double> target_length,
+               std::optional<std::size_t> vertices) {
+                new (self) Limits{};
+                if (seconds) self->seconds = *seconds;
+                if (target_length) self->target_length = *target_length;
+                if (vertices) self->vertices = *vertices;
+            },
+            nb::arg("seconds") = nb::none(), nb::arg("target_length") = nb::none(),
+            nb::arg("vertices") = nb::none());
     nb::class_<Cancellation>(m, "Cancellation", "Ends a plan from another thread.")
         .def(nb::init<>())
         .def("cancel", &Cancellation::cancel, "End the plans that hold this object; thread-safe.")
@@ -114,34 +116,34 @@ void register_planning(nb::module_& m) {
         .def(nb::new_(&make_region), nb::arg("anchors"), nb::kw_only(), nb::arg("has_heading"),
              nb::arg("half_width"), nb::arg("minor_axis"), nb::arg("yaw_deviation"),
              nb::arg("area"))
-        .def("sample",
-             [](const Region& self, std::size_t count, std::uint32_t seed) {
-                 ompl::RNG rng;
-                 rng.setLocalSeed(seed);
-                 std::vector<Pose> poses(count);
-                 for (Pose& pose : poses) pose = sample_region(self, rng);
-                 return to_numpy(poses);
-             },
-             nb::arg("count"), nb::arg("seed"), "Draw (count, 3) poses, some maybe off the map.");
+        .def(
+            "sample",
+            [](const Region& self, std::size_t count, std::uint32_t seed) {
+                ompl::RNG rng;
+                rng.setLocalSeed(seed);
+                std::vector<Pose> poses(count);
+                for (Pose& pose : poses) pose = sample_region(self, rng);
+                return to_numpy(poses);
+            },
+            nb::arg("count"), nb::arg("seed"), "Draw (count, 3) poses, some maybe off the map.");
 
     nb::class_<Answer>(m, "Answer")
-        .def_prop_ro("path", [](const Answer& a) { return to_numpy(a.path); },
-                     nb::rv_policy::move)
+        .def_prop_ro(
+            "path", [](const Answer& a) { return to_numpy(a.path); }, nb::rv_policy::move)
         .def_ro("length", &Answer::length)
         .def_ro("vertices", &Answer::vertices)
         .def_ro("seconds", &Answer::seconds)
         .def_ro("outcome", &Answer::outcome)
-        .def_prop_ro("tree_vertices",
-                     [](const Answer& a) { return to_numpy(a.tree.vertices); },
-                     nb::rv_policy::move)
-        .def_prop_ro("tree_edges", [](const Answer& a) { return edges_of(a.tree); },
-                     nb::rv_policy::move);
+        .def_prop_ro(
+            "tree_vertices", [](const Answer& a) { return to_numpy(a.tree.vertices); },
+            nb::rv_policy::move)
+        .def_prop_ro(
+            "tree_edges", [](const Answer& a) { return edges_of(a.tree); }, nb::rv_policy::move);
 
     m.def("plan", &run_plan, nb::arg("blocked"), nb::arg("resolution"), nb::arg("robot"),
           nb::arg("start"), nb::arg("goal"), nb::kw_only(), nb::arg("planner"),
           nb::arg("region") = nb::none(), nb::arg("exploration") = 0.0, nb::arg("limits"),
-          nb::arg("seed"), nb::arg("keep_tree") = false,
-          nb::arg("cancellation") = nb::none(),
+          nb::arg("seed"), nb::arg("keep_tree") = false, nb::arg("cancellation") = nb::none(),
           "Plan in the map's local frame; see planformer.planning.search.");
     m.def("planner_names", &planner_names, nb::arg("robot"));
     m.def(

@@ -57,8 +57,8 @@ void CarSpace::sanityChecks() const {
     // As for OMPL's own curve spaces: rounding moves a point of a shortest curve off it by 1e-15,
     // and from there the way can be longer by the root of that or, forward only, by a whole turn;
     // and curves leave the bounds, so that the extent does not bound their length.
-    int flags = ~(STATESPACE_INTERPOLATION | STATESPACE_TRIANGLE_INEQUALITY |
-                  STATESPACE_DISTANCE_BOUND);
+    int flags =
+        ~(STATESPACE_INTERPOLATION | STATESPACE_TRIANGLE_INEQUALITY | STATESPACE_DISTANCE_BOUND);
     if (!reverse_) flags &= ~STATESPACE_DISTANCE_SYMMETRIC;
     ob::StateSpace::sanityChecks(std::numeric_limits<double>::epsilon(),
                                  std::numeric_limits<float>::epsilon(), flags);

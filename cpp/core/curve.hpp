@@ -149,9 +149,8 @@ bool for_each_pose(const Curve& curve, double step, Visit&& visit) {
     for (int i = 0; i < curve.segment_count(); ++i) {
         const Segment& part = curve.segment(i);
         const Pose next = advance(pose, part.curvature, part.length);
-        const bool go_on = part.curvature == 0.0
-                               ? visit(next)
-                               : for_each_arc_pose(pose, part, next, step, visit);
+        const bool go_on =
+            part.curvature == 0.0 ? visit(next) : for_each_arc_pose(pose, part, next, step, visit);
         if (!go_on) return false;
         pose = next;
     }

@@ -86,9 +86,8 @@ Words solve(const UnitGoal& goal) {
 }
 
 Word& shortest(Words& words) {
-    return *std::min_element(words.begin(), words.end(), [](const Word& a, const Word& b) {
-        return a.length < b.length;
-    });
+    return *std::min_element(words.begin(), words.end(),
+                             [](const Word& a, const Word& b) { return a.length < b.length; });
 }
 
 Curve build(const Word& word, const Pose& from, double turning_radius) {

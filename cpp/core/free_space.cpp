@@ -12,27 +12,34 @@ constexpr double kCornerTolerance = 1e-9;
 
 /// The walk of a segment along one axis of the grid.
 struct Axis {
-    int cell;         ///< current cell
-    int last;         ///< cell of the segment's end
-    int step;         ///< +1 or -1
-    double next;      ///< segment parameter in [0, 1] of the next grid line, infinite when done
-    double per_cell;  ///< parameter between two grid lines
+    int cell;     ///< current cell
+    int last;     ///< cell of the segment's end
+    int step;     ///< +1 or -1
+    double next;  ///< segment parameter in [0, 1] of the next grid line, infinite when done
 
     Axis(double from, double to)
         : cell(static_cast<int>(std::floor(from))),
           last(static_cast<int>(std::floor(to))),
           step(to >= from ? 1 : -1),
-          next(std::numeric_limits<double>::infinity()),
-          per_cell(std::numeric_limits<double>::infinity()) {
-        if (cell == last) return;
-        per_cell = 1.0 / std::abs(to - from);
-        next = (step > 0 ? cell + 1 - from : from - cell) * per_cell;
+          from_(from),
+          per_cell_(1.0 / (to - from)) {
+        find_next();
     }
 
     void advance() {
         cell += step;
-        next = cell == last ? std::numeric_limits<double>::infinity() : next + per_cell;
+        find_next();
     }
+
+private:
+    /// From the line's number, not from the last crossing: sums drift on long segments.
+    void find_next() {
+        const int line = step > 0 ? cell + 1 : cell;
+        next = cell == last ? std::numeric_limits<double>::infinity() : (line - from_) * per_cell_;
+    }
+
+    double from_;
+    double per_cell_;  ///< parameter between two grid lines, negative on the way down
 };
 
 }  // namespace

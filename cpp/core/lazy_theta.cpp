@@ -21,14 +21,14 @@ struct Offset {
     int col;
 };
 
-constexpr Offset kNeighbours[8] = {{0, 1},  {1, 0}, {0, -1}, {-1, 0},
+constexpr Offset kNeighbours[8] = {{0, 1}, {1, 0},  {0, -1},  {-1, 0},
                                    {1, 1}, {1, -1}, {-1, -1}, {-1, 1}};
 
 /// What the search knows of a cell, 8 bytes because memory traffic is most of the cost. All zero
 /// means untouched, so that the operating system's zero pages initialise the cells: the memory
 /// really used is that of the cells seen.
 struct Node {
-    float length;      ///< Length of the best path found from the start [m].
+    float length;       ///< Length of the best path found from the start [m].
     Index parent : 31;  ///< Index of the parent cell + 1; 0 = untouched.
     Index closed : 1;
 
@@ -97,8 +97,7 @@ public:
 
 private:
     Index index(int row, int col) const {
-        return static_cast<Index>(row) * static_cast<Index>(space_.width) +
-               static_cast<Index>(col);
+        return static_cast<Index>(row) * static_cast<Index>(space_.width) + static_cast<Index>(col);
     }
 
     Index cell_of(Point p) const {
@@ -167,8 +166,7 @@ private:
                 continue;
             }
             const Point there = point(neighbour, r + step.row, c + step.col);
-            const auto length =
-                static_cast<float>(nodes_[neighbour].length + distance(there, at));
+            const auto length = static_cast<float>(nodes_[neighbour].length + distance(there, at));
             if (length < best) {
                 best = length;
                 nodes_[cell].set_parent(neighbour);

@@ -1,8 +1,6 @@
 #include "core/monitor.hpp"
 
-#include <ompl/base/PlannerData.h>
-
-#include "core/planners.hpp"
+#include "core/graph.hpp"
 
 namespace planformer {
 
@@ -12,30 +10,18 @@ namespace {
 
 constexpr double kInterruptPeriod = 0.02;  // [s]
 
-/// Path lengths are sums in another order than the planner's, so the target needs a little slack.
-constexpr double kLengthTolerance = 1e-9;
-
 }  // namespace
 
-std::size_t count_vertices(const ob::Planner& planner, const StateCount& states) {
-    // Asking these planners for their graph leaks it (OMPL 1.5 keeps it in a static variable), and
-    // each of their samples is checked exactly once.
-    if (samples_in_batches(planner)) return states.accepted;
-    ob::PlannerData data(planner.getSpaceInformation());
-    planner.getPlannerData(data);
-    return data.numVertices();
-}
-
 Monitor::Monitor(const Limits& limits, Clock::time_point started, const ob::Planner& planner,
-                 StateCountPtr states, const Cancellation* cancellation, std::function<bool()> interrupted)
+                 const StateCount& states, const Cancellation* cancellation,
+                 std::function<bool()> interrupted)
     : limits_(limits),
       planner_(planner),
-      states_(std::move(states)),
+      states_(states),
       cancellation_(cancellation),
       interrupted_(std::move(interrupted)),
       started_(started),
-      next_vertex_check_(limits.vertices),
-      thread_(std::this_thread::get_id()) {}
+      next_vertex_check_(limits.vertices) {}
 
 ob::PlannerTerminationCondition Monitor::condition() {
     return ob::PlannerTerminationCondition([this] { return should_stop(); });
@@ -55,23 +41,21 @@ bool Monitor::should_stop() {
 
 bool Monitor::is_interrupted() {
     if (cancellation_ != nullptr && cancellation_->is_cancelled()) return true;
-    // PRM* also evaluates the condition in a thread of its own, which must not ask.
-    if (!interrupted_ || std::this_thread::get_id() != thread_) return false;
-    if (seconds_since(started_) < next_interrupt_check_) return false;
+    if (!interrupted_ || seconds_since(started_) < next_interrupt_check_) return false;
     next_interrupt_check_ = seconds_since(started_) + kInterruptPeriod;
     return interrupted_();
 }
 
 bool Monitor::has_too_many_vertices() {
-    if (states_->alive < next_vertex_check_ || std::this_thread::get_id() != thread_) return false;
-    const std::size_t vertices = count_vertices(planner_, *states_);
+    if (states_ < next_vertex_check_) return false;
+    const std::size_t vertices = count_vertices(planner_);
     if (vertices >= limits_.vertices) return true;
-    next_vertex_check_ = states_->alive + (limits_.vertices - vertices);
+    next_vertex_check_ = states_ + (limits_.vertices - vertices);
     return false;
 }
 
 Outcome Monitor::outcome(double best_length) const {
-    if (best_length <= limits_.target_length * (1.0 + kLengthTolerance)) return Outcome::kTarget;
+    if (best_length <= limits_.longest_on_target()) return Outcome::kTarget;
     return reason_;
 }
 

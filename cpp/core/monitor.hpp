@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
-#include <thread>
 
 #include "core/state_count.hpp"
 
@@ -20,17 +19,23 @@ inline double seconds_since(Clock::time_point started) {
     return std::chrono::duration<double>(Clock::now() - started).count();
 }
 
+/// A length with slack for rounding: a path's length is a sum that planners take in another order.
+inline double with_slack(double length) { return length * (1.0 + 1e-9); }
+
 /// When a search ends. Infinite and maximal values mean "no limit".
 struct Limits {
     double seconds = std::numeric_limits<double>::infinity();
     double target_length = 0.0;  ///< stop at the first path this short [m]; 0: never
     std::size_t vertices = std::numeric_limits<std::size_t>::max();
+
+    /// The longest path that meets the target.
+    double longest_on_target() const { return with_slack(target_length); }
 };
 
 /// Why a search ended.
 enum class Outcome {
-    kFinished,     ///< the planner ended by itself
-    kTarget,       ///< a path at most as long as the target was found
+    kFinished,  ///< the planner ended by itself
+    kTarget,    ///< a path at most as long as the target was found
     kTimeLimit,
     kVertexLimit,
     kCancelled,
@@ -49,10 +54,10 @@ private:
 /// Ends a search at its limits and remembers which of them it was.
 class Monitor {
 public:
-    /// The time limit counts from `started`. `interrupted` is asked about every 20 ms from the
-    /// planning thread; it may be empty.
+    /// The time limit counts from `started`; `interrupted` is asked about every 20 ms and may be
+    /// empty. Planner and count have to outlive the monitor.
     Monitor(const Limits& limits, Clock::time_point started, const ompl::base::Planner& planner,
-            StateCountPtr states, const Cancellation* cancellation,
+            const StateCount& states, const Cancellation* cancellation,
             std::function<bool()> interrupted);
 
     ompl::base::PlannerTerminationCondition condition();
@@ -67,17 +72,13 @@ private:
 
     Limits limits_;
     const ompl::base::Planner& planner_;
-    StateCountPtr states_;
+    const StateCount& states_;
     const Cancellation* cancellation_;
     std::function<bool()> interrupted_;
     Clock::time_point started_;
     double next_interrupt_check_ = 0.0;
     std::size_t next_vertex_check_;
-    std::thread::id thread_;
-    std::atomic<Outcome> reason_{Outcome::kFinished};
+    Outcome reason_ = Outcome::kFinished;
 };
-
-/// The collision-free states in the planner's trees or roadmap.
-std::size_t count_vertices(const ompl::base::Planner& planner, const StateCount& states);
 
 }  // namespace planformer

@@ -73,7 +73,7 @@ bool RegionInformedSampler::sampleUniform(ob::State* state, const ob::Cost& min_
                                           const ob::Cost& max_cost) {
     // BIT* uses the state whatever is returned here, so a failed draw leaves the start in it.
     Pose pose = start_;
-    const bool possible = max_cost.value() >= ellipse_->getMinTransverseDiameter();
+    const bool possible = max_cost.value() > ellipse_->getMinTransverseDiameter();
     const bool drawn = possible && draw(min_cost.value(), max_cost.value(), &pose);
     write_state(*space_, drawn ? pose : start_, state);
     return drawn;
@@ -84,7 +84,7 @@ double RegionInformedSampler::getInformedMeasure(const ob::Cost& cost) const {
     if (guidance_.region && guidance_.exploration == 0.0) {
         area = std::min(area, guidance_.region->area);
     }
-    if (std::isfinite(cost.value()) && cost.value() >= ellipse_->getMinTransverseDiameter()) {
+    if (std::isfinite(cost.value()) && cost.value() > ellipse_->getMinTransverseDiameter()) {
         area = std::min(area, ellipse_->getPhsMeasure(cost.value()));
     }
     return area * yaw_measure_;

@@ -1,11 +1,11 @@
 #include "core/plan.hpp"
 
-#include <ompl/base/PlannerData.h>
 #include <ompl/base/ProblemDefinition.h>
 #include <ompl/base/SpaceInformation.h>
 #include <ompl/base/spaces/RealVectorStateSpace.h>
 #include <ompl/geometric/PathGeometric.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -32,7 +32,8 @@ ob::RealVectorBounds bounds_of(const Extent& extent) {
     return bounds;
 }
 
-ob::StateSpacePtr make_space(const RobotModel& robot, const Extent& extent, const StateCountPtr& count) {
+ob::StateSpacePtr make_space(const RobotModel& robot, const Extent& extent,
+                             const StateCountPtr& count) {
     if (robot.kind == RobotKind::kPoint) {
         auto space = std::make_shared<Counted<ob::RealVectorStateSpace>>(count, 2u);
         space->setBounds(bounds_of(extent));
@@ -48,12 +49,11 @@ ob::SpaceInformationPtr make_space_information(const Query& query, const Extent&
     const ob::StateSpacePtr space = make_space(query.robot, extent, count);
     space->setStateSamplerAllocator(
         [guidance = query.guidance, extent, seed = query.seed](const ob::StateSpace* s) {
-            return seeded(seed, [&] {
-                return std::make_shared<GuidedSampler>(s, guidance, extent, seed);
-            });
+            return seeded(
+                seed, [&] { return std::make_shared<GuidedSampler>(s, guidance, extent, seed); });
         });
     auto si = std::make_shared<ob::SpaceInformation>(space);
-    si->setStateValidityChecker(std::make_shared<GridValidityChecker>(si, query.free_space, count));
+    si->setStateValidityChecker(std::make_shared<GridValidityChecker>(si, query.free_space));
     si->setMotionValidator(std::make_shared<GridMotionValidator>(si, query.free_space));
     si->setup();
     return si;
@@ -68,7 +68,11 @@ ob::ProblemDefinitionPtr make_problem(const Query& query, const Extent& extent,
     write_state(*si->getStateSpace(), query.goal, goal.get());
     problem->setStartAndGoalStates(start, goal);
     auto objective = std::make_shared<GuidedPathLength>(si, query.guidance, extent, query.seed);
-    objective->setCostThreshold(ob::Cost(query.limits.target_length));
+    // Nothing is shorter than the way without obstacles: a path as short ends the search too, which
+    // could only go on sampling an informed set that has become empty.
+    const double shortest = si->distance(start.get(), goal.get());
+    objective->setCostThreshold(
+        ob::Cost(std::max(query.limits.longest_on_target(), with_slack(shortest))));
     problem->setOptimizationObjective(objective);
     return problem;
 }
@@ -93,18 +97,19 @@ std::vector<Pose> read_path(const og::PathGeometric& path, double step) {
 Answer plan_geometric(const Query& query) {
     const auto started = Clock::now();
     const Extent extent{query.free_space.extent_x(), query.free_space.extent_y()};
-    const auto states = std::make_shared<StateCount>();
+    const auto states = std::make_shared<StateCount>(0);
     const auto si = make_space_information(query, extent, states);
     const auto problem = make_problem(query, extent, si);
     const ob::PlannerPtr planner = seeded(query.seed, [&] {
-        ob::PlannerPtr made = make_planner(query.planner, si);
+        ob::PlannerPtr made = make_planner(query.planner, si, query.limits.vertices);
         if (!made) throw std::invalid_argument("unknown planner: " + query.planner);
         made->setProblemDefinition(problem);
         made->setup();
         return made;
     });
 
-    Monitor monitor(query.limits, started, *planner, states, query.cancellation, query.interrupted);
+    Monitor monitor(query.limits, started, *planner, *states, query.cancellation,
+                    query.interrupted);
     planner->solve(monitor.condition());
     Answer answer;
     answer.length = std::numeric_limits<double>::infinity();
@@ -115,27 +120,12 @@ Answer plan_geometric(const Query& query) {
     }
     answer.outcome = monitor.outcome(answer.length);
     answer.seconds = seconds_since(started);
-    answer.vertices = count_vertices(*planner, *states);
+    answer.vertices = count_vertices(*planner);
     if (query.keep_tree) answer.tree = read_tree(*planner);
     return answer;
 }
 
 }  // namespace
-
-Tree read_tree(const ob::Planner& planner) {
-    ob::PlannerData data(planner.getSpaceInformation());
-    planner.getPlannerData(data);
-    const ob::StateSpace& space = *planner.getSpaceInformation()->getStateSpace();
-    Tree tree;
-    tree.vertices.reserve(data.numVertices());
-    for (unsigned int i = 0; i < data.numVertices(); ++i) {
-        tree.vertices.push_back(read_state(space, data.getVertex(i).getState()));
-        std::vector<unsigned int> children;
-        data.getEdges(i, children);
-        for (const unsigned int child : children) tree.edges.emplace_back(i, child);
-    }
-    return tree;
-}
 
 Answer plan(const Query& query) {
     if (query.planner == "SST") return plan_sst(query);

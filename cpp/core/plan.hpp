@@ -9,6 +9,7 @@
 
 #include "core/curve.hpp"
 #include "core/free_space.hpp"
+#include "core/graph.hpp"
 #include "core/monitor.hpp"
 #include "core/planners.hpp"
 #include "core/region.hpp"
@@ -39,12 +40,6 @@ struct Query {
     std::function<bool()> interrupted;  ///< asked every 20 ms whether to give up
 };
 
-/// The planner's graph, for pictures.
-struct Tree {
-    std::vector<Pose> vertices;
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;  ///< (parent, child)
-};
-
 /// The answer; an empty path means that none was found.
 struct Answer {
     std::vector<Pose> path;
@@ -59,8 +54,5 @@ struct Answer {
 ///
 /// The planner name has to be one of `planner_names`; start and goal have to be valid.
 Answer plan(const Query& query);
-
-/// The planner's graph as poses.
-Tree read_tree(const ompl::base::Planner& planner);
 
 }  // namespace planformer

@@ -6,7 +6,6 @@
 #include <ompl/geometric/planners/informedtrees/AITstar.h>
 #include <ompl/geometric/planners/informedtrees/BITstar.h>
 #include <ompl/geometric/planners/prm/LazyPRMstar.h>
-#include <ompl/geometric/planners/prm/PRMstar.h>
 #include <ompl/geometric/planners/rrt/InformedRRTstar.h>
 #include <ompl/geometric/planners/rrt/RRT.h>
 #include <ompl/geometric/planners/rrt/RRTConnect.h>
@@ -21,6 +20,10 @@
 #define PLANFORMER_HAS_EITSTAR
 #endif
 
+#include <algorithm>
+
+#include "core/prm_star.hpp"
+
 namespace planformer {
 
 namespace ob = ompl::base;
@@ -30,13 +33,26 @@ namespace {
 
 struct Entry {
     const char* name;
-    ob::PlannerPtr (*make)(const ob::SpaceInformationPtr&);
+    ob::PlannerPtr (*make)(const ob::SpaceInformationPtr&, std::size_t max_vertices);
     bool car;  ///< whether it respects that a car's curve back is not its curve there
 };
 
 template <typename Planner>
-ob::PlannerPtr make(const ob::SpaceInformationPtr& si) {
+ob::PlannerPtr make(const ob::SpaceInformationPtr& si, std::size_t) {
     return std::make_shared<Planner>(si);
+}
+
+/// Start and goal are vertices too, and the search has to begin below the limit.
+constexpr std::size_t kOtherVertices = 3;
+
+template <typename Planner>
+ob::PlannerPtr make_sampled_first(const ob::SpaceInformationPtr& si, std::size_t max_vertices) {
+    auto planner = std::make_shared<Planner>(si);
+    const std::size_t samples = std::max(max_vertices, kOtherVertices + 1) - kOtherVertices;
+    if (samples < planner->getNumSamples()) {
+        planner->setNumSamples(static_cast<unsigned int>(samples));
+    }
+    return planner;
 }
 
 /// Roadmaps and backward searches treat an edge as passable both ways, which is wrong for a car.
@@ -55,28 +71,20 @@ const Entry kPlanners[] = {
     {"EITstar", make<og::EITstar>, false},
     {"EIRMstar", make<og::EIRMstar>, false},
 #endif
-    {"FMT", make<og::FMT>, true},
-    {"BFMT", make<og::BFMT>, false},
-    {"PRMstar", make<og::PRMstar>, false},
+    {"FMT", make_sampled_first<og::FMT>, true},
+    {"BFMT", make_sampled_first<og::BFMT>, false},
+    {"PRMstar", make<SteadyPRMstar>, false},
     {"LazyPRMstar", make<og::LazyPRMstar>, false},
 };
 
 }  // namespace
 
-ob::PlannerPtr make_planner(const std::string& name, const ob::SpaceInformationPtr& si) {
+ob::PlannerPtr make_planner(const std::string& name, const ob::SpaceInformationPtr& si,
+                            std::size_t max_vertices) {
     for (const Entry& entry : kPlanners) {
-        if (name == entry.name) return entry.make(si);
+        if (name == entry.name) return entry.make(si, max_vertices);
     }
     return nullptr;
-}
-
-bool samples_in_batches(const ob::Planner& planner) {
-    // ABIT* is a BIT*, EIRM* an EIT*.
-#ifdef PLANFORMER_HAS_EITSTAR
-    if (dynamic_cast<const og::EITstar*>(&planner) != nullptr) return true;
-#endif
-    return dynamic_cast<const og::BITstar*>(&planner) != nullptr ||
-           dynamic_cast<const og::AITstar*>(&planner) != nullptr;
 }
 
 std::vector<std::string> planner_names(RobotKind robot) {

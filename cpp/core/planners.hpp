@@ -2,6 +2,7 @@
 
 #include <ompl/base/Planner.h>
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -11,11 +12,11 @@ namespace planformer {
 enum class RobotKind { kPoint, kCar };
 
 /// Constructs one of OMPL's geometric planners by its class name; null for an unknown name.
+///
+/// FMT* and BFMT* draw all their samples first: not more than a search may have vertices.
 ompl::base::PlannerPtr make_planner(const std::string& name,
-                                    const ompl::base::SpaceInformationPtr& si);
-
-/// Whether the planner draws its samples in batches into one graph: BIT* and its relatives.
-bool samples_in_batches(const ompl::base::Planner& planner);
+                                    const ompl::base::SpaceInformationPtr& si,
+                                    std::size_t max_vertices);
 
 /// The class names this build has for the robot, SST (see sst.hpp) included.
 std::vector<std::string> planner_names(RobotKind robot);

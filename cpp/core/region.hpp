@@ -18,7 +18,7 @@ namespace planformer {
 /// headings it is an ellipse with semi-axes (half_width, minor_axis) turned along the heading, and
 /// the yaw is Gaussian round it (Motion Planning Transformers, section III.B).
 struct Region {
-    std::vector<Pose> anchors;   ///< yaw is the predicted heading
+    std::vector<Pose> anchors;  ///< yaw is the predicted heading
     bool has_heading = false;
     double half_width = 0.0;     ///< [m]
     double minor_axis = 0.0;     ///< [m]

@@ -88,7 +88,8 @@ public:
     bool isSatisfied(const ob::State* state, double* distance) const override {
         const Curve curve = final_curve(state);
         *distance = curve.length();
-        if (curve.length() > kFinalCurve || !curve_is_free(free_space_, curve, goal())) return false;
+        if (curve.length() > kFinalCurve || !curve_is_free(free_space_, curve, goal()))
+            return false;
         last_final_length_ = curve.length();
         return true;
     }
@@ -140,9 +141,8 @@ ob::StateSpacePtr make_space(const Query& query, const Extent& extent, const Sta
     space->setBounds(bounds);
     space->setStateSamplerAllocator(
         [guidance = query.guidance, extent, seed = query.seed](const ob::StateSpace* s) {
-            return seeded(seed, [&] {
-                return std::make_shared<GuidedSampler>(s, guidance, extent, seed);
-            });
+            return seeded(
+                seed, [&] { return std::make_shared<GuidedSampler>(s, guidance, extent, seed); });
         });
     return space;
 }
@@ -167,10 +167,10 @@ std::shared_ptr<oc::SpaceInformation> make_space_information(const Query& query,
                                                              const StateCountPtr& count) {
     const ob::StateSpacePtr space = make_space(query, extent, count);
     auto si = std::make_shared<oc::SpaceInformation>(space, make_controls(query, space));
-    si->setStateValidityChecker(std::make_shared<GridValidityChecker>(si, query.free_space, count));
+    si->setStateValidityChecker(std::make_shared<GridValidityChecker>(si, query.free_space));
     si->setMotionValidator(std::make_shared<GridMotionValidator>(si, query.free_space));
-    si->setStatePropagator(std::make_shared<CarPropagator>(si.get(), query.free_space,
-                                                           query.robot.wheelbase));
+    si->setStatePropagator(
+        std::make_shared<CarPropagator>(si.get(), query.free_space, query.robot.wheelbase));
     si->setPropagationStepSize(kStepSeconds);
     const double turn = query.robot.max_speed * kStepSeconds / query.robot.turning_radius;
     const double steps = std::clamp(std::floor(kMaxTurn / turn), 1.0, double{kMaxSteps});
@@ -187,12 +187,11 @@ ob::ProblemDefinitionPtr make_problem(const Query& query,
     write_state(*si->getStateSpace(), query.start, start.get());
     write_state(*si->getStateSpace(), query.goal, goal_state.get());
     problem->addStartState(start);
-    const auto goal =
-        std::make_shared<CarGoal>(si, query.free_space, query.robot.turning_radius);
+    const auto goal = std::make_shared<CarGoal>(si, query.free_space, query.robot.turning_radius);
     goal->setState(goal_state);
     problem->setGoal(goal);
     auto objective = std::make_shared<DrivenLength>(si, goal);
-    objective->setCostThreshold(ob::Cost(query.limits.target_length));
+    objective->setCostThreshold(ob::Cost(query.limits.longest_on_target()));
     problem->setOptimizationObjective(objective);
     return problem;
 }
@@ -225,7 +224,7 @@ void read_path(const Query& query, const CarGoal& goal, oc::PathControl& path, A
 Answer plan_sst(const Query& query) {
     const auto started = Clock::now();
     const Extent extent{query.free_space.extent_x(), query.free_space.extent_y()};
-    const auto states = std::make_shared<StateCount>();
+    const auto states = std::make_shared<StateCount>(0);
     const auto si = make_space_information(query, extent, states);
     const auto problem = make_problem(query, si);
     const auto planner = seeded(query.seed, [&] {
@@ -236,7 +235,8 @@ Answer plan_sst(const Query& query) {
         made->setup();
         return made;
     });
-    Monitor monitor(query.limits, started, *planner, states, query.cancellation, query.interrupted);
+    Monitor monitor(query.limits, started, *planner, *states, query.cancellation,
+                    query.interrupted);
     planner->solve(monitor.condition());
     Answer answer;
     answer.length = std::numeric_limits<double>::infinity();
@@ -246,7 +246,7 @@ Answer plan_sst(const Query& query) {
     }
     answer.outcome = monitor.outcome(answer.length);
     answer.seconds = seconds_since(started);
-    answer.vertices = count_vertices(*planner, *states);
+    answer.vertices = count_vertices(*planner);
     if (query.keep_tree) answer.tree = read_tree(*planner);
     return answer;
 }

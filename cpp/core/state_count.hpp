@@ -9,16 +9,13 @@
 
 namespace planformer {
 
-/// What a search has made so far.
-struct StateCount {
-    /// States that the state space has handed out and not got back. They bound the vertices of
-    /// every planner from above at no cost.
-    std::atomic<std::size_t> alive{0};
-    /// States found free, which are the vertices of planners that sample in batches.
-    std::atomic<std::size_t> accepted{0};
-};
+/// The number of states that a state space has handed out and not got back.
+///
+/// It bounds the vertices of every planner from above at no cost, so that the exact count is taken
+/// only when it can matter.
+using StateCount = std::atomic<std::size_t>;
 
-/// Shared, because OMPL 1.5 keeps some states of BIT* and AIT* until the process ends.
+/// Shared, because OMPL's EIT* keeps some states until the process ends.
 using StateCountPtr = std::shared_ptr<StateCount>;
 
 /// A state space that counts its states.
@@ -30,12 +27,12 @@ public:
         : Space(std::forward<Args>(args)...), count_(std::move(count)) {}
 
     ompl::base::State* allocState() const override {
-        count_->alive.fetch_add(1, std::memory_order_relaxed);
+        count_->fetch_add(1, std::memory_order_relaxed);
         return Space::allocState();
     }
 
     void freeState(ompl::base::State* state) const override {
-        count_->alive.fetch_sub(1, std::memory_order_relaxed);
+        count_->fetch_sub(1, std::memory_order_relaxed);
         Space::freeState(state);
     }
 

@@ -26,14 +26,12 @@ void append_motion(const Curve& curve, const Pose& target, double step, std::vec
 }
 
 GridValidityChecker::GridValidityChecker(const ob::SpaceInformationPtr& si,
-                                         const FreeSpace& free_space, StateCountPtr count)
-    : ob::StateValidityChecker(si), free_space_(free_space), count_(std::move(count)) {}
+                                         const FreeSpace& free_space)
+    : ob::StateValidityChecker(si), free_space_(free_space) {}
 
 bool GridValidityChecker::isValid(const ob::State* state) const {
     const Pose pose = read_state(*si_->getStateSpace(), state);
-    const bool free = free_space_.is_free(pose.x, pose.y);
-    if (free) count_->accepted.fetch_add(1, std::memory_order_relaxed);
-    return free;
+    return free_space_.is_free(pose.x, pose.y);
 }
 
 GridMotionValidator::GridMotionValidator(const ob::SpaceInformationPtr& si,

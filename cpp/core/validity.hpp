@@ -10,7 +10,6 @@
 #include "core/car_space.hpp"
 #include "core/curve.hpp"
 #include "core/free_space.hpp"
-#include "core/state_count.hpp"
 
 namespace planformer {
 
@@ -46,14 +45,11 @@ void append_motion(const Curve& curve, const Pose& target, double step, std::vec
 /// A state is valid where its cell is free.
 class GridValidityChecker : public ompl::base::StateValidityChecker {
 public:
-    /// Counts the states that it accepts in `count`.
-    GridValidityChecker(const ompl::base::SpaceInformationPtr& si, const FreeSpace& free_space,
-                        StateCountPtr count);
+    GridValidityChecker(const ompl::base::SpaceInformationPtr& si, const FreeSpace& free_space);
     bool isValid(const ompl::base::State* state) const override;
 
 private:
     FreeSpace free_space_;
-    StateCountPtr count_;
 };
 
 /// Exact check of straight motions in R^2 and of curves in a `CarSpace`.

@@ -207,8 +207,8 @@ double second_derivation(const Pair& pair) {
     double best = kInfinity;
     for (const double side : {1.0, -1.0}) {
         for (const double other : {1.0, -1.0}) {
-            best = std::min({best, tangent_word(pair, side, other),
-                             touching_word(pair, side, other)});
+            best =
+                std::min({best, tangent_word(pair, side, other), touching_word(pair, side, other)});
         }
     }
     return best;
@@ -224,14 +224,12 @@ double straight_gap(const Pair& pair, const Pose& pose, double last) {
 
 /// How far the next circle is from touching the goal's circle on side `first`.
 double circle_gap(const Pair& pair, const Pose& pose, double first) {
-    const Vec between =
-        centre(pair.to, first, pair.radius) - centre(pose, -first, pair.radius);
+    const Vec between = centre(pair.to, first, pair.radius) - centre(pose, -first, pair.radius);
     return dot(between, between) - 4.0 * pair.radius * pair.radius;
 }
 
 double finish_straight(const Pair& pair, const Pose& pose, double last) {
-    const double straight =
-        dot(centre(pair.to, last, pair.radius) - position(pose), heading(pose));
+    const double straight = dot(centre(pair.to, last, pair.radius) - position(pose), heading(pose));
     if (straight < 0.0) return kInfinity;
     return straight + pair.radius * turn_between(heading(pose), heading(pair.to), last);
 }
@@ -273,8 +271,8 @@ double brute_force(const Pair& pair) {
     double best = kInfinity;
     for (const double first : {1.0, -1.0}) {
         for (const double last : {1.0, -1.0}) {
-            best = std::min(best,
-                            scan_first_turn(pair, first, last, straight_gap, finish_straight));
+            best =
+                std::min(best, scan_first_turn(pair, first, last, straight_gap, finish_straight));
         }
         best = std::min(best, scan_first_turn(pair, first, first, circle_gap, finish_circle));
     }

@@ -9,6 +9,8 @@ from hypothesis import strategies as st
 
 from planformer.encoding import NetworkScale, QueryKind, encode_query
 from planformer.encoding import wavefront as wavefront_module
+from planformer.encoding.query import passages
+from planformer.encoding.wavefront import wavefront
 from planformer.errors import InvalidParameter
 
 FREE = np.zeros((480, 480), np.uint8)
@@ -139,3 +141,23 @@ def test_refuses_what_is_no_state(start):
 def test_refuses_a_missing_yaw():
     with pytest.raises(InvalidParameter, match="yaw"):
         encode_query(FREE, (1.0, 1.0), GOAL, NetworkScale(headings=True))
+
+
+@given(column=st.integers(0, 39), thickness=st.integers(1, 4))
+def test_no_wall_is_too_thin_to_stop_the_wavefront(column, thickness):
+    pixels = np.zeros((40, 60), np.uint8)
+    pixels[:, column : column + thickness] = 1
+    lattice = passages(pixels, 5)
+    # Cells whose middle lies left of the wall are cut off from cells right of it.
+    left, right = (column - 1) // 5, -(-(column + thickness + 1) // 5)
+    if left >= 0 and left * 5 + 2 < column:
+        distance = wavefront(~lattice, (0, 2 * left))
+        assert np.isinf(distance[::2, ::2][:, right + 1 :]).all()
+
+
+@given(row=st.integers(0, 35), width=st.integers(1, 5))
+def test_a_straight_passage_of_any_width_stays_open(row, width):
+    pixels = np.ones((40, 60), np.uint8)
+    pixels[row : row + width] = 0
+    distance = wavefront(~passages(pixels, 5), (2 * (row // 5), 0))
+    assert np.isfinite(distance[2 * (row // 5), -1])

@@ -43,7 +43,7 @@ def encode_query(
     free = _free_share(pixels, scale.query_stride)
     channels = [markers, free[None]]
     if scale.query is QueryKind.WAVEFRONT:
-        channels.insert(1, _distance_channels(free, states, scale))
+        channels.insert(1, _distance_channels(pixels, states, scale))
     if scale.headings:
         channels.append(
             np.concatenate(
@@ -108,15 +108,16 @@ def _free_share(pixels: NDArray[np.uint8], side: int) -> NDArray[np.float64]:
 
 
 def _distance_channels(
-    free: NDArray[np.float64], states: tuple[NDArray[np.float64], ...], scale: NetworkScale
+    pixels: NDArray[np.uint8], states: tuple[NDArray[np.float64], ...], scale: NetworkScale
 ) -> NDArray[np.float64]:
     """(3, h, w): how far from the start, how far from the goal, how small the detour."""
-    cells = tuple(_cell(state, free.shape, scale) for state in states)
-    # Half blocked keeps walls of a cell's width closed and narrow passages open; where that cuts
-    # start from goal, any free pixel opens a cell.
-    from_start, from_goal = _distances(free < 0.5, cells)
+    side = scale.query_stride
+    shape = (pixels.shape[0] // side, pixels.shape[1] // side)
+    cells = tuple(_cell(state, shape, scale) for state in states)
+    from_start, from_goal = _distances(passages(pixels, side), cells)
     if not np.isfinite(from_start[cells[1]]):
-        from_start, from_goal = _distances(free == 0.0, cells)
+        # The way is too narrow or too crooked for straight steps: any free pixel opens a cell.
+        from_start, from_goal = _distances(_fully_open(_free_share(pixels, side) > 0.0), cells)
     far = DISTANCE_SCALE / scale.query_resolution
     via = from_start + from_goal
     shortest = via.min()
@@ -137,10 +138,59 @@ def _cell(
     return row, col
 
 
+def passages(pixels: NDArray[np.uint8], side: int) -> NDArray[np.bool_]:
+    """Where a coarse grid can be walked without stepping through a wall, however thin.
+
+    Two neighbouring cells are joined when a straight line of pixels from the middle of one to the
+    middle of the other is free. Judging cells alone would either open thin walls that run along
+    the border of two cells or close narrow passages.
+
+    Args:
+        pixels: (H, W) uint8 network map, 1 = blocked.
+        side: Pixels a cell; divides H and W.
+
+    Returns:
+        (2 h - 1, 2 w - 1) bool lattice, True = open, with the cells at even indices, the steps
+        between them at odd ones and the diagonal steps where both indices are odd.
+    """
+    right, up = _joined(pixels, side), _joined(pixels.T, side).T
+    height, width = pixels.shape[0] // side, pixels.shape[1] // side
+    lattice = np.ones((2 * height - 1, 2 * width - 1), bool)
+    lattice[::2, 1::2] = right
+    lattice[1::2, ::2] = up
+    lattice[1::2, 1::2] = right[:-1] & right[1:] & up[:, :-1] & up[:, 1:]
+    return lattice
+
+
+def _joined(pixels: NDArray[np.uint8], side: int) -> NDArray[np.bool_]:
+    """(h, w - 1) bool: whether a free row of pixels joins a cell with the one to its right."""
+    height, width = pixels.shape
+    sums = np.zeros((height, width + 1), np.int32)
+    np.cumsum(pixels, axis=1, out=sums[:, 1:])
+    first = np.arange(width // side - 1) * side + side // 2
+    clear = sums[:, first + side + 1] == sums[:, first]
+    joined: NDArray[np.bool_] = clear.reshape(height // side, side, -1).any(axis=1)
+    return joined
+
+
+def _fully_open(cells: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """The lattice of `passages` in which all steps between open cells are open."""
+    height, width = cells.shape
+    wide = np.ones((height, 2 * width - 1), bool)
+    wide[:, ::2] = cells
+    wide[:, 1::2] = cells[:, :-1] & cells[:, 1:]
+    lattice = np.ones((2 * height - 1, 2 * width - 1), bool)
+    lattice[::2] = wide
+    lattice[1::2] = wide[:-1] & wide[1:]
+    return lattice
+
+
 def _distances(
-    blocked: NDArray[np.bool_], cells: tuple[tuple[int, int], ...]
+    lattice: NDArray[np.bool_], cells: tuple[tuple[int, int], ...]
 ) -> list[NDArray[np.float64]]:
-    """Geodesic distances from each cell, all of which are opened."""
-    for cell in cells:
-        blocked[cell] = False
-    return [wavefront(blocked, cell).astype(np.float64) for cell in cells]
+    """(h, w) geodesic distances in cells from each of some cells."""
+    blocked = ~lattice
+    return [
+        0.5 * wavefront(blocked, (2 * row, 2 * col))[::2, ::2].astype(np.float64)
+        for row, col in cells
+    ]

@@ -25,9 +25,7 @@ class OnnxNetwork:
     weights: Weights
     session: onnxruntime.InferenceSession
 
-    def predict(
-        self, problem: Problem
-    ) -> tuple[NDArray[np.float32], NDArray[np.float64] | None]:
+    def predict(self, problem: Problem) -> tuple[NDArray[np.float32], NDArray[np.float64] | None]:
         """Evaluate the network.
 
         Returns:
@@ -45,7 +43,7 @@ class OnnxNetwork:
         outputs = self.session.run(None, {"map": pixels[None, None], "query": query[None]})
         probability = outputs[0][0, 0]
         if not np.isfinite(probability).all():
-            raise InvalidWeights(f"the weights {self.weights.name} predict values that are no number")
+            raise InvalidWeights(f"the weights {self.weights.name} predict no finite probability")
         if not scale.headings:
             return probability, None
         cos, sin = outputs[1][0].astype(np.float64)
@@ -105,9 +103,7 @@ def load_network(guide: str) -> OnnxNetwork:
 def _load(path: Path, modified: int) -> OnnxNetwork:
     weights = read_weights(path)
     try:
-        session = onnxruntime.InferenceSession(
-            weights.model, providers=["CPUExecutionProvider"]
-        )
+        session = onnxruntime.InferenceSession(weights.model, providers=["CPUExecutionProvider"])
     except Exception as error:  # ONNX Runtime's exceptions share no public base class
         raise InvalidWeights(f"ONNX Runtime cannot load {path}: {error}") from error
     return OnnxNetwork(weights, session)

@@ -51,7 +51,7 @@ def weights_path(guide: str) -> Path:
         UnknownGuide: No shipped weights have the name and no such file exists.
     """
     path = Path(guide) if guide.endswith(".onnx") else SHIPPED / f"{ALIASES.get(guide, guide)}.onnx"
-    if "/" in guide and not guide.endswith(".onnx") or not path.is_file():
+    if ("/" in guide and not guide.endswith(".onnx")) or not path.is_file():
         raise UnknownGuide(
             f"unknown guide {guide!r}; valid: {', '.join(guide_names())}, the path of an existing "
             ".onnx file, or None"

@@ -21,7 +21,8 @@ def path_is_valid(grid: OccupancyGrid, robot: Robot, path: ArrayLike) -> bool:
     """Whether a robot can follow a path without collision and within its turning radius.
 
     Consecutive states are joined by straight lines, for a car by single arcs or straight lines
-    that are checked as chords: pass poses about half a cell apart on arcs, as `PlanResult.path` has.
+    that are checked as chords: pass poses about half a cell apart on arcs, as those of
+    `PlanResult.path` are.
 
     Args:
         grid: The map.

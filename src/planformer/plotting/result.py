@@ -10,7 +10,7 @@ from matplotlib.transforms import Affine2D
 
 from planformer.maps import OccupancyGrid
 from planformer.planning import PlanResult
-from planformer.plotting.furniture import draw_furniture
+from planformer.plotting.annotations import draw_annotations
 from planformer.plotting.layers import draw_ends, draw_path, draw_region, draw_tree
 from planformer.plotting.layout import DPI, Layout, make_layout
 from planformer.plotting.raster import map_image
@@ -56,7 +56,7 @@ def plot_result(
     if result.solved:
         draw_path(layout.axes, robot, result)
     draw_ends(layout.axes, *ends)
-    draw_furniture(layout, robot, result, title)
+    draw_annotations(layout, robot, result, title)
     return layout.figure
 
 

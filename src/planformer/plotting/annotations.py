@@ -9,16 +9,17 @@ from matplotlib.artist import Artist
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
-from planformer.planning import PlanResult, PlanStatus
+from planformer.planning import PlanResult
 from planformer.plotting import style
 from planformer.plotting.layout import Layout
+from planformer.plotting.words import caption
 from planformer.robots import Robot
 
 _SCALE_BAR = 1.5
 """Greatest length of the scale bar in inches."""
 
 
-def draw_furniture(layout: Layout, robot: Robot, result: PlanResult, title: str | None) -> None:
+def draw_annotations(layout: Layout, robot: Robot, result: PlanResult, title: str | None) -> None:
     """Draw everything that stands beside the map."""
     _draw_axes(layout)
     _draw_texts(layout, result, title)
@@ -28,36 +29,11 @@ def draw_furniture(layout: Layout, robot: Robot, result: PlanResult, title: str 
         _draw_colour_bar(layout)
 
 
-def caption(result: PlanResult) -> str:
-    """One line on the outcome: status, length, vertices, region and times."""
-    parts = [outcome(result)]
-    if result.solved:
-        parts.append(f"{result.length:.2f} m")
-    parts.append(f"{result.vertices:,} vertices")
-    if result.region is not None:
-        parts.append(f"region {result.region.share:.1%} of the map")
-        parts.append(f"proposal {duration(result.proposal_seconds)}")
-    parts.append(f"planning {duration(result.planning_seconds)}")
-    return "  ·  ".join(parts)
-
-
-def outcome(result: PlanResult) -> str:
-    """Whether there is a path, and why the search ended where that says more."""
-    if not result.solved:
-        return f"no path: {result.status.value}"
-    plain = result.status is PlanStatus.FINISHED
-    return "path found" if plain else f"path found, {result.status.value}"
-
-
-def duration(seconds: float) -> str:
-    """A readable time, in milliseconds below a second."""
-    return f"{seconds:.2f} s" if seconds >= 1.0 else f"{seconds * 1e3:.3g} ms"
-
-
 def nice_length(extent: float) -> float:
     """The largest of 1, 2, 5, 10, ... (and 0.5, 0.2, ...) that is at most `extent`."""
+    # 0.5 is there for an extent just below a power of ten that log10 rounds up.
     power = 10.0 ** math.floor(math.log10(extent))
-    return max(step * power for step in (1.0, 2.0, 5.0) if step * power <= extent)
+    return max(step * power for step in (0.5, 1.0, 2.0, 5.0) if step * power <= extent)
 
 
 def _draw_axes(layout: Layout) -> None:

@@ -1,0 +1,150 @@
+#include "core/graph.hpp"
+
+#include <ompl/base/PlannerData.h>
+#include <ompl/base/SpaceInformation.h>
+#include <ompl/geometric/planners/informedtrees/AITstar.h>
+#include <ompl/geometric/planners/informedtrees/BITstar.h>
+#include <ompl/geometric/planners/informedtrees/aitstar/ImplicitGraph.h>
+#include <ompl/geometric/planners/informedtrees/aitstar/Vertex.h>
+#include <ompl/geometric/planners/informedtrees/bitstar/ImplicitGraph.h>
+#include <ompl/geometric/planners/informedtrees/bitstar/Vertex.h>
+
+#include <mutex>
+#include <unordered_map>
+
+#include "core/region.hpp"
+
+namespace planformer {
+
+namespace ob = ompl::base;
+namespace og = ompl::geometric;
+
+namespace {
+
+// getPlannerData of BIT*, ABIT*, AIT* and EIT* keeps every vertex that it has ever reported in a
+// set that lives as long as the process (OMPL 1.5 to 1.7): memory grows with each plan and threads
+// race for the set. So the graphs of the first three are read from their members. These are
+// private; only an explicit instantiation may name them ([temp.explicit] in the C++ standard).
+
+template <typename Tag, auto Member>
+struct Expose {
+    friend constexpr auto graph_member(Tag) { return Member; }
+};
+
+struct BitTag {
+    friend constexpr auto graph_member(BitTag);
+};
+template struct Expose<BitTag, &og::BITstar::graphPtr_>;
+
+struct AitTag {
+    friend constexpr auto graph_member(AitTag);
+};
+template struct Expose<AitTag, &og::AITstar::graph_>;
+
+/// What BIT* and AIT* call the same things.
+struct BitGraph {
+    static auto vertices(const og::BITstar& planner) {
+        return (planner.*graph_member(BitTag{}))->getCopyOfSamples();
+    }
+    template <typename Vertex>
+    static const ob::State* state(const Vertex& vertex) {
+        return vertex->state();
+    }
+    template <typename Vertex>
+    static Vertex parent(const Vertex& vertex) {
+        return vertex->hasParent() ? vertex->getParent() : nullptr;
+    }
+};
+
+struct AitGraph {
+    static auto vertices(const og::AITstar& planner) {
+        return (planner.*graph_member(AitTag{})).getVertices();
+    }
+    template <typename Vertex>
+    static const ob::State* state(const Vertex& vertex) {
+        return vertex->getState();
+    }
+    template <typename Vertex>
+    static Vertex parent(const Vertex& vertex) {
+        return vertex->hasForwardParent() ? vertex->getForwardParent() : nullptr;
+    }
+};
+
+template <typename Graph, typename Planner>
+Tree read_vertices(const Planner& planner) {
+    const auto vertices = Graph::vertices(planner);
+    const ob::StateSpace& space = *planner.getSpaceInformation()->getStateSpace();
+    std::unordered_map<const void*, std::uint32_t> index;
+    Tree tree;
+    for (const auto& vertex : vertices) {
+        index.emplace(vertex.get(), static_cast<std::uint32_t>(tree.vertices.size()));
+        tree.vertices.push_back(read_state(space, Graph::state(vertex)));
+    }
+    for (const auto& vertex : vertices) {
+        const auto parent = index.find(Graph::parent(vertex).get());
+        if (parent != index.end()) tree.edges.emplace_back(parent->second, index[vertex.get()]);
+    }
+    return tree;
+}
+
+/// `getPlannerData` for all planners but those above; one at a time because of EIT*.
+void copy_graph(const ob::Planner& planner, ob::PlannerData* data) {
+    static std::mutex mutex;
+    const std::lock_guard<std::mutex> lock(mutex);
+    planner.getPlannerData(*data);
+}
+
+/// LazyPRM* holds states that it has not checked yet.
+bool is_valid(const ob::Planner& planner, const ob::PlannerData& data, unsigned int vertex) {
+    return planner.getSpaceInformation()->isValid(data.getVertex(vertex).getState());
+}
+
+Tree read_planner_data(const ob::Planner& planner) {
+    ob::PlannerData data(planner.getSpaceInformation());
+    copy_graph(planner, &data);
+    const ob::StateSpace& space = *planner.getSpaceInformation()->getStateSpace();
+    Tree tree;
+    std::unordered_map<unsigned int, std::uint32_t> index;
+    for (unsigned int i = 0; i < data.numVertices(); ++i) {
+        if (!is_valid(planner, data, i)) continue;
+        index.emplace(i, static_cast<std::uint32_t>(tree.vertices.size()));
+        tree.vertices.push_back(read_state(space, data.getVertex(i).getState()));
+    }
+    std::vector<unsigned int> children;
+    for (const auto& [vertex, row] : index) {
+        data.getEdges(vertex, children);
+        for (const unsigned int child : children) {
+            const auto found = index.find(child);
+            if (found != index.end()) tree.edges.emplace_back(row, found->second);
+        }
+    }
+    return tree;
+}
+
+}  // namespace
+
+std::size_t count_vertices(const ob::Planner& planner) {
+    if (const auto* bit = dynamic_cast<const og::BITstar*>(&planner)) {
+        return BitGraph::vertices(*bit).size();
+    }
+    if (const auto* ait = dynamic_cast<const og::AITstar*>(&planner)) {
+        return AitGraph::vertices(*ait).size();
+    }
+    ob::PlannerData data(planner.getSpaceInformation());
+    copy_graph(planner, &data);
+    std::size_t count = 0;
+    for (unsigned int i = 0; i < data.numVertices(); ++i) count += is_valid(planner, data, i);
+    return count;
+}
+
+Tree read_tree(const ob::Planner& planner) {
+    if (const auto* bit = dynamic_cast<const og::BITstar*>(&planner)) {
+        return read_vertices<BitGraph>(*bit);
+    }
+    if (const auto* ait = dynamic_cast<const og::AITstar*>(&planner)) {
+        return read_vertices<AitGraph>(*ait);
+    }
+    return read_planner_data(planner);
+}
+
+}  // namespace planformer

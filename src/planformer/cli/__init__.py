@@ -1,0 +1,1 @@
+"""The command line, `planformer`; one command a module."""

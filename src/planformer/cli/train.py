@@ -1,0 +1,123 @@
+"""`planformer train`: train a region proposal network."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from planformer.cli.console import print_facts, print_json, stderr
+from planformer.cli.exit_codes import INTERRUPTED
+
+if TYPE_CHECKING:
+    from planformer.models import MPTConfig
+    from planformer.training import Progress, TrainConfig, TrainResult
+
+
+def train_command(
+    data: Annotated[
+        Path, typer.Argument(metavar="DATA", help="Folder with the data sets train/ and val/.")
+    ],
+    output: Annotated[Path, typer.Argument(metavar="FOLDER", help="Folder of the training.")],
+    preset: Annotated[
+        str, typer.Option(help="Network: small, tiny, dubins, paper or paper-fixed-encoding.")
+    ] = "small",
+    steps: Annotated[int | None, typer.Option(help="End after this many steps.")] = None,
+    minutes: Annotated[float | None, typer.Option(help="End after this training time.")] = None,
+    batch_size: Annotated[int | None, typer.Option(help="Problems a step.")] = None,
+    learning_rate: Annotated[float | None, typer.Option(help="Peak learning rate.")] = None,
+    positive_weight: Annotated[
+        float | None, typer.Option(help="Weight of the anchors near the path.")
+    ] = None,
+    validate_every: Annotated[int | None, typer.Option(help="Steps between validations.")] = None,
+    seed: Annotated[int | None, typer.Option(help="Seed of weights and order.")] = None,
+    workers: Annotated[int | None, typer.Option(help="Processes that load problems.")] = None,
+    threads: Annotated[int | None, typer.Option(help="Threads of PyTorch on the CPU.")] = None,
+    device: Annotated[str | None, typer.Option(help="PyTorch device, such as cuda.")] = None,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print the outcome as JSON and nothing else.")
+    ] = False,
+) -> None:
+    """Train a region proposal network; Ctrl-C stops after a step, the same command goes on.
+
+    Example: planformer train data runs/small --minutes 60
+    """
+    from planformer.data.dataset import PathDataset
+    from planformer.models import preset as network_preset
+    from planformer.training import train
+
+    network = network_preset(preset)
+    config = _config(
+        network,
+        steps=steps,
+        seconds=None if minutes is None else 60.0 * minutes,
+        batch_size=batch_size,
+        learning_rate=learning_rate,
+        positive_weight=positive_weight,
+        validate_every=validate_every,
+        seed=seed,
+        workers=workers,
+        threads=threads,
+        device=device,
+    )
+    problems, validation = PathDataset(data / "train"), PathDataset(data / "val")
+    with _progress_bar(config) as show:
+        result = train(network, config, problems, output, validation=validation, report=show)
+    _print_outcome(result, as_json=as_json)
+    if not result.finished:
+        raise typer.Exit(INTERRUPTED)
+
+
+def _config(network: MPTConfig, **given: Any) -> TrainConfig:
+    """The settings that were given; the paper's network has the paper's defaults."""
+    from planformer.models import TransformerBody
+    from planformer.training import Recipe, TrainConfig
+
+    is_paper = isinstance(network.body, TransformerBody)
+    defaults: dict[str, Any] = {"recipe": Recipe.PAPER, "warmup_steps": 3200} if is_paper else {}
+    return TrainConfig(**defaults, **{k: v for k, v in given.items() if v is not None})
+
+
+@contextmanager
+def _progress_bar(config: TrainConfig) -> Iterator[Callable[[Progress], None]]:
+    """A bar on stderr towards the first limit; yields what shows the progress of each step."""
+    from rich import progress as bars
+
+    columns = (bars.TextColumn("{task.description}"), bars.BarColumn(), bars.TimeElapsedColumn())
+    with bars.Progress(*columns, console=stderr) as bar:
+        task = bar.add_task("preparing", total=1.0)
+
+        def show(progress: Progress) -> None:
+            bar.update(task, completed=_share(progress, config), description=_line(progress))
+            for kind, metrics in (progress.metrics or {}).items():
+                stderr.print(f"step {progress.step}  {kind}: {_words(metrics)}", soft_wrap=True)
+
+        yield show
+
+
+def _share(progress: Progress, config: TrainConfig) -> float:
+    """How much of the training is done, 0 to 1."""
+    by_steps = progress.step / config.steps if config.steps else 0.0
+    by_time = progress.seconds / config.seconds if config.seconds else 0.0
+    return max(by_steps, by_time)
+
+
+def _line(progress: Progress) -> str:
+    return f"step {progress.step}  loss {progress.loss:.4f}"
+
+
+def _words(metrics: Mapping[str, float]) -> str:
+    return "  ".join(f"{name} {value:.4g}" for name, value in metrics.items())
+
+
+def _print_outcome(result: TrainResult, *, as_json: bool) -> None:
+    if as_json:
+        print_json({**asdict(result), "checkpoint": str(result.checkpoint)})
+        return
+    title = "training finished" if result.finished else "interrupted; the same command goes on"
+    facts = {"checkpoint": str(result.checkpoint), "steps": f"{result.step:,}"}
+    print_facts(title, facts | {kind: _words(values) for kind, values in result.metrics.items()})
