@@ -25,9 +25,9 @@ DEV_READY := $(VENV)/.stamp-dev
 .PHONY: demo
 demo: $(PACKAGE_READY)
 	mkdir -p demo
-	$(BIN)/planformer map indoor --seed 4 --output demo/map.yaml
-	$(BIN)/planformer plan demo/map.yaml --start 1.5 1.5 --goal 22.5 22.5 \
-	    --planner RRTstar --guide $(DEMO_GUIDE) --time-limit 2 --seed 1 --output demo
+	$(BIN)/planformer map indoor --seed 0 --output demo/map.yaml
+	$(BIN)/planformer plan demo/map.yaml --start 2.5 2 --goal 21.5 19.2 \
+	    --planner RRTstar --guide mpt --time-limit 2 --seed 1 --output demo
 
 ## test: run the test suite
 .PHONY: test
@@ -40,7 +40,7 @@ test-core: $(DEV_READY)
 	PATH="$(BIN):$$PATH" cmake -S . -B build/core -G Ninja --log-level=WARNING \
 	    -DPLANFORMER_PYTHON=OFF -DPLANFORMER_CPP_TESTS=ON
 	$(BIN)/cmake --build build/core
-	$(BIN)/ctest --test-dir build/core --parallel 2 --output-on-failure
+	$(BIN)/ctest --test-dir build/core --parallel "$$(nproc)" --output-on-failure
 
 ## lint: check style, types and layers
 .PHONY: lint

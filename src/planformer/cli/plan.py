@@ -117,6 +117,7 @@ def plan_command(
     folder = output if output or as_json else Path(f"{map_file.stem}_plan")
     if folder is not None:
         require_writable(folder)  # before the search, not after it
+    weights = None if guide == _UNGUIDED else guide
     seed = int(np.random.default_rng().integers(2**32)) if seed is None else seed
     with stderr.status(f"Planning for at most {time_limit:g} s; Ctrl-C keeps the best path"):
         result = stoppable(
@@ -125,7 +126,7 @@ def plan_command(
                 body,
                 *ends,
                 planner=planner,
-                guide=None if guide == _UNGUIDED else guide,
+                guide=weights,
                 threshold=threshold,
                 exploration=exploration,
                 time_limit=time_limit,
@@ -144,17 +145,18 @@ def plan_command(
         start=ends[0],
         goal=ends[1],
         planner=planner,
-        guide=None if guide == _UNGUIDED else guide,
+        guide=weights,
         seed=seed,
         result=result,
+        folder=folder,
+        picture=not no_picture,
     )
-    if folder is not None:
-        with stderr.status("Writing"):
-            done.write(folder, picture=not no_picture)
+    with stderr.status("Writing"):
+        done.write()
     if as_json:
-        print_json(done.record(folder, picture=not no_picture))
+        print_json(done.record())
     else:
-        done.print(folder, picture=not no_picture)
+        done.print()
     raise typer.Exit(exit_code(result))
 
 

@@ -40,6 +40,13 @@ def require_writable(folder: Path) -> None:
         )
 
 
+def _make(folder: Path) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InvalidParameter(f"{folder}: cannot be made: {error.strerror or error}") from error
+
+
 @dataclass(frozen=True)
 class PlanReport:
     """A plan with all that was asked for.
@@ -55,6 +62,8 @@ class PlanReport:
         guide: Name or path of the weights, None without a guide.
         seed: Seed of the search.
         result: The plan.
+        folder: Folder for the files, None for none.
+        picture: Whether to draw a picture.
     """
 
     map_file: Path
@@ -67,6 +76,8 @@ class PlanReport:
     guide: str | None
     seed: int
     result: PlanResult
+    folder: Path | None
+    picture: bool
 
     @property
     def title(self) -> str:
@@ -74,30 +85,31 @@ class PlanReport:
         guide = f"guided by {Path(self.guide).stem}" if self.guide else "unguided"
         return f"{self.map_file.stem}  ·  {self.planner} {guide}"
 
-    def files(self, folder: Path | None, *, picture: bool) -> dict[str, Path]:
+    @property
+    def files(self) -> dict[str, Path]:
         """The files that `write` makes, by what they hold."""
-        names = {"path": CSV, "record": JSON} | ({"picture": PICTURE} if picture else {})
-        return {} if folder is None else {key: folder / name for key, name in names.items()}
+        if self.folder is None:
+            return {}
+        names = {"path": CSV, "record": JSON} | ({"picture": PICTURE} if self.picture else {})
+        return {key: self.folder / name for key, name in names.items()}
 
-    def write(self, folder: Path, *, picture: bool) -> None:
+    def write(self) -> None:
         """Write the files; each appears whole or not at all.
 
         Raises:
             InvalidParameter: The folder cannot be made or written to.
         """
-        try:
-            folder.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise InvalidParameter(
-                f"{folder}: cannot be made: {error.strerror or error}"
-            ) from error
-        record = to_json(self.record(folder, picture=picture))
-        write_files({folder / CSV: self.csv().encode(), folder / JSON: record.encode()})
-        if picture:
+        files = self.files
+        if self.folder is None:
+            return
+        _make(self.folder)
+        record = to_json(self.record()).encode()
+        write_files({files["path"]: self.csv().encode(), files["record"]: record})
+        if self.picture:
             figure = plot_result(
                 self.grid, self.robot, self.start, self.goal, self.result, title=self.title
             )
-            save_picture(figure, folder / PICTURE)
+            save_picture(figure, files["picture"])
 
     def csv(self) -> str:
         """The path, one state a line under a header; the header alone without a path."""
@@ -107,7 +119,7 @@ class PlanReport:
         writer.writerows(self.result.path.tolist())
         return text.getvalue()
 
-    def record(self, folder: Path | None, *, picture: bool) -> dict[str, Any]:
+    def record(self) -> dict[str, Any]:
         """The whole result as JSON-compatible values; metres, rad and seconds."""
         result, region = self.result, self.result.region
         return {
@@ -139,10 +151,10 @@ class PlanReport:
                 "connected": region.connected,
             },
             "path": result.path.tolist(),
-            "files": {k: str(v) for k, v in self.files(folder, picture=picture).items()},
+            "files": {k: str(v) for k, v in self.files.items()},
         }
 
-    def print(self, folder: Path | None, *, picture: bool) -> None:
+    def print(self) -> None:
         """Print a summary for people."""
         result = self.result
         found = ("bold green" if result.solved else "bold red", outcome(result))
@@ -154,7 +166,7 @@ class PlanReport:
                 **({} if result.region is None else self._region_facts()),
                 "planning": duration(result.planning_seconds),
                 "seed": str(self.seed),
-                "files": "\n".join(map(str, self.files(folder, picture=picture).values())),
+                "files": "\n".join(map(str, self.files.values())),
             },
         )
 

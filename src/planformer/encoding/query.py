@@ -69,7 +69,7 @@ def _direction(state: NDArray[np.float64]) -> NDArray[np.float64]:
 def _square_query(
     shape: tuple[int, ...], states: tuple[NDArray[np.float64], ...], scale: NetworkScale
 ) -> NDArray[np.float32]:
-    """The paper's encoding, section IV-A: patches of -1 at the start and +1 at the goal."""
+    """The paper's encoding, section III.A: patches of -1 at the start and +1 at the goal."""
     query = np.zeros((scale.query_channels, *shape), np.float32)
     for state, sign in zip(states, (-1.0, 1.0), strict=True):  # where they overlap the goal wins
         rows, cols = (_patch(coordinate, scale) for coordinate in state[1::-1])

@@ -36,8 +36,8 @@ def generate_forest(
     """Generate a Random Forest map.
 
     Circles of radius 0.75 m and squares of side 1.5 m at random rotation; centres uniform at
-    least 0.5 m inside the map; a border one cell wide. Johnson, Qureshi and Yip, Motion Planning
-    Transformers, section V. A cell is occupied when its centre lies in an obstacle.
+    least 0.5 m inside the map; a border one cell wide. Johnson et al., Motion Planning
+    Transformers, section IV.A. A cell is occupied when its centre lies in an obstacle.
 
     Args:
         seed: Integer >= 0 or NumPy Generator; the same seed gives the same map.

@@ -32,8 +32,8 @@ def generate_maze(
     """Generate a perfect maze: exactly one way between any two of its cells.
 
     Walls are 0.375 m and passages 1.2 m wide, so 24 m hold 15 x 15 maze cells; randomised
-    depth-first search. Johnson, Qureshi and Yip, Motion Planning Transformers, section V. Where
-    the size is no whole number of maze cells, the maze is centred and the rest is occupied.
+    depth-first search. Johnson et al., Motion Planning Transformers, section IV.A. Where the
+    size is no whole number of maze cells, the maze is centred and the rest is occupied.
 
     Args:
         seed: Integer >= 0 or NumPy Generator; the same seed gives the same map.

@@ -14,7 +14,7 @@ from planformer.errors import InvalidParameter
 class TransformerBody:
     """The paper's network: convolutions to one token per metre, then a transformer encoder.
 
-    Johnson, Qureshi and Yip, Motion Planning Transformers, section IV-A; the numbers that the
+    Motion Planning Transformers (Johnson et al.), section III.A; the numbers that the
     paper leaves open are those of its published experiments.
 
     Attributes:

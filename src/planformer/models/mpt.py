@@ -1,7 +1,7 @@
 """The Motion Planning Transformer as the paper describes it.
 
-Johnson, Qureshi and Yip, Motion Planning Transformers: A Motion Planning Framework for Mobile
-Robots, section IV-A.
+Johnson et al., Motion Planning Transformers: A Motion Planning Framework for Mobile Robots,
+section III.A.
 """
 
 from __future__ import annotations

@@ -62,7 +62,7 @@ class TrainConfig:
     learning_rate: float = 1.5e-3
     weight_decay: float = 0.02
     warmup_steps: int = 50
-    positive_weight: float = 2.0
+    positive_weight: float = 8.0
     augment: bool = True
     bfloat16: bool = True
     seed: int = 0

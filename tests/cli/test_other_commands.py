@@ -1,0 +1,96 @@
+from __future__ import annotations
+
+import json
+
+import pytest
+
+import planformer as pf
+
+
+def test_map_is_the_generators(cli, tmp_path):
+    generators = {
+        "indoor": pf.generate_indoor,
+        "forest": pf.generate_forest,
+        "maze": pf.generate_maze,
+    }
+    for kind, generate in generators.items():
+        file = tmp_path / kind / "map.yaml"
+        size = ("--seed", 3, "--width", 9, "--height", 8, "--output", file)
+        result = cli("map", kind, *size, "--json")
+        assert result.exit_code == 0, result.output
+        assert json.loads(result.stdout)["width"] == 9
+        assert pf.load_map(file) == generate(3, width=9, height=8)
+
+
+@pytest.mark.parametrize(
+    "options", [("--width", "-1"), ("--output", "map.xyz"), ("--resolution", "1e-9")]
+)
+def test_map_refuses_bad_input(cli, tmp_path, monkeypatch, options):
+    monkeypatch.chdir(tmp_path)
+    assert cli("map", "forest", "--output", "map.yaml", *options).exit_code == 2
+    assert not list(tmp_path.iterdir())
+
+
+def test_info_lists_planners_and_guides(cli):
+    record = json.loads(cli("info", "--json").stdout)
+    assert record["planformer"] == pf.__version__
+    assert record["planners"]["point"] == pf.planner_names(pf.PointRobot())
+    assert "SST" in record["planners"]["dubins"]
+    assert list(record["guides"]) == pf.guide_names()
+    assert "RRTstar" in cli("info").output
+
+
+def test_info_describes_a_map(cli, room, room_file):
+    record = json.loads(cli("info", room_file, "--json").stdout)
+    assert record["shape"] == list(room.shape)
+    assert record["origin"] == list(room.origin)
+    assert record["occupied"] == pytest.approx(room.occupied.mean())
+    assert "60 x 40 cells" in cli("info", room_file).output
+
+
+def test_version_and_help(cli):
+    assert pf.__version__ in cli("--version").output
+    for command in ("plan", "map", "info", "generate", "train", "export"):
+        result = cli(command, "--help")
+        assert result.exit_code == 0
+        assert result.output.strip()
+
+
+def test_generate_completes_only_its_own_data_set(cli, tmp_path):
+    options = ("--kinds", "forest", "--maps", 1, "--paths-per-map", 2, "--workers", 1)
+    first = cli("generate", tmp_path / "data", *options, "--json")
+    assert first.exit_code == 0, first.output
+    assert json.loads(first.stdout)["kinds"] == ["forest"]
+    assert cli("generate", tmp_path / "data", *options).exit_code == 0
+    other = cli("generate", tmp_path / "data", *options, "--seed", 5)
+    assert other.exit_code == 2
+    assert "other settings" in other.output
+
+
+def test_training_to_guidance(cli, tmp_path):
+    """Every command in turn, from maps to a guided plan."""
+    pytest.importorskip("torch")
+    pytest.importorskip("onnx")
+    for part, seed in (("train", 1), ("val", 2)):
+        options = ("--kinds", "forest", "--maps", 1, "--paths-per-map", 4, "--workers", 1)
+        assert cli("generate", tmp_path / "data" / part, *options, "--seed", seed).exit_code == 0
+    settings = ("--preset", "tiny", "--steps", 1, "--batch-size", 2, "--workers", 0)
+    trained = cli("train", tmp_path / "data", tmp_path / "run", *settings, "--json")
+    assert trained.exit_code == 0, trained.output
+    checkpoint = json.loads(trained.stdout)["checkpoint"]
+    weights = tmp_path / "tiny.onnx"
+    exported = cli("export", checkpoint, weights, "--json")
+    assert exported.exit_code == 0, exported.output
+    assert weights.with_suffix(".json").is_file()
+    map_file = tmp_path / "map.yaml"
+    assert cli("map", "forest", "--seed", 4, "--output", map_file).exit_code == 0
+    grid = pf.load_map(map_file)
+    ends = [
+        value
+        for option, point in (("--start", (1, 1)), ("--goal", (6, 6)))
+        for value in (option, *grid.nearest_free(point, 0.1))
+    ]
+    plan = cli("plan", map_file, *ends, "--guide", weights, "--time-limit", 2, "--json")
+    record = json.loads(plan.stdout)
+    assert plan.exit_code in (0, 1)
+    assert 0 < record["region"]["share"] <= 1
