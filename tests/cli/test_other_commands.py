@@ -67,7 +67,7 @@ def test_generate_completes_only_its_own_data_set(cli, tmp_path):
     assert "other settings" in other.output
 
 
-def test_training_to_guidance(cli, tmp_path):
+def test_training_to_guidance(cli, shell, tmp_path):
     """Every command in turn, from maps to a guided plan."""
     pytest.importorskip("torch")
     pytest.importorskip("onnx")
@@ -75,8 +75,8 @@ def test_training_to_guidance(cli, tmp_path):
         options = ("--kinds", "forest", "--maps", 1, "--paths-per-map", 4, "--workers", 1)
         assert cli("generate", tmp_path / "data" / part, *options, "--seed", seed).exit_code == 0
     settings = ("--preset", "tiny", "--steps", 1, "--batch-size", 2, "--workers", 0)
-    trained = cli("train", tmp_path / "data", tmp_path / "run", *settings, "--json")
-    assert trained.exit_code == 0, trained.output
+    trained = shell("train", tmp_path / "data", tmp_path / "run", *settings, "--json")
+    assert trained.returncode == 0, trained.stderr
     checkpoint = json.loads(trained.stdout)["checkpoint"]
     weights = tmp_path / "tiny.onnx"
     exported = cli("export", checkpoint, weights, "--json")
