@@ -27,7 +27,7 @@ demo: $(PACKAGE_READY)
 	mkdir -p demo
 	$(BIN)/planformer map indoor --seed 0 --output demo/map.yaml
 	$(BIN)/planformer plan demo/map.yaml --start 2.5 2 --goal 21.5 19.2 \
-	    --planner RRTstar --guide mpt --time-limit 2 --seed 1 --output demo
+	    --planner RRTstar --guide mpt --max-vertices 2000 --seed 1 --output demo
 
 ## test: run the test suite
 .PHONY: test

@@ -6,8 +6,6 @@
 #include <array>
 #include <cmath>
 
-#include "core/seeding.hpp"
-
 namespace planformer {
 
 namespace ob = ompl::base;
@@ -91,17 +89,18 @@ double RegionInformedSampler::getInformedMeasure(const ob::Cost& cost) const {
 }
 
 GuidedPathLength::GuidedPathLength(const ob::SpaceInformationPtr& si, Guidance guidance,
-                                   Extent extent, std::uint32_t seed)
+                                   Extent extent, SeedsPtr seeds)
     : ob::PathLengthOptimizationObjective(si),
       guidance_(std::move(guidance)),
       extent_(extent),
-      seed_(seed) {}
+      seeds_(std::move(seeds)) {}
 
 ob::InformedSamplerPtr GuidedPathLength::allocInformedStateSampler(
     const ob::ProblemDefinitionPtr& problem, unsigned int max_calls) const {
-    return seeded(seed_, [&] {
+    const std::uint32_t seed = seeds_->next();
+    return seeded(seed, [&] {
         return std::make_shared<RegionInformedSampler>(problem, max_calls, guidance_, extent_,
-                                                       seed_);
+                                                       seed);
     });
 }
 

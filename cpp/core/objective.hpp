@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "core/region.hpp"
+#include "core/seeding.hpp"
 
 namespace planformer {
 
@@ -47,7 +48,7 @@ private:
 class GuidedPathLength : public ompl::base::PathLengthOptimizationObjective {
 public:
     GuidedPathLength(const ompl::base::SpaceInformationPtr& si, Guidance guidance, Extent extent,
-                     std::uint32_t seed);
+                     SeedsPtr seeds);
 
     ompl::base::InformedSamplerPtr allocInformedStateSampler(
         const ompl::base::ProblemDefinitionPtr& problem, unsigned int max_calls) const override;
@@ -55,7 +56,7 @@ public:
 private:
     Guidance guidance_;
     Extent extent_;
-    std::uint32_t seed_;
+    SeedsPtr seeds_;
 };
 
 }  // namespace planformer

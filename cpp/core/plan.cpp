@@ -45,13 +45,9 @@ ob::StateSpacePtr make_space(const RobotModel& robot, const Extent& extent,
 }
 
 ob::SpaceInformationPtr make_space_information(const Query& query, const Extent& extent,
-                                               const StateCountPtr& count) {
+                                               const StateCountPtr& count, const SeedsPtr& seeds) {
     const ob::StateSpacePtr space = make_space(query.robot, extent, count);
-    space->setStateSamplerAllocator(
-        [guidance = query.guidance, extent, seed = query.seed](const ob::StateSpace* s) {
-            return seeded(
-                seed, [&] { return std::make_shared<GuidedSampler>(s, guidance, extent, seed); });
-        });
+    space->setStateSamplerAllocator(guided_sampler_allocator(query.guidance, extent, seeds));
     auto si = std::make_shared<ob::SpaceInformation>(space);
     si->setStateValidityChecker(std::make_shared<GridValidityChecker>(si, query.free_space));
     si->setMotionValidator(std::make_shared<GridMotionValidator>(si, query.free_space));
@@ -60,14 +56,14 @@ ob::SpaceInformationPtr make_space_information(const Query& query, const Extent&
 }
 
 ob::ProblemDefinitionPtr make_problem(const Query& query, const Extent& extent,
-                                      const ob::SpaceInformationPtr& si) {
+                                      const ob::SpaceInformationPtr& si, const SeedsPtr& seeds) {
     auto problem = std::make_shared<ob::ProblemDefinition>(si);
     ob::ScopedState<> start(si);
     ob::ScopedState<> goal(si);
     write_state(*si->getStateSpace(), query.start, start.get());
     write_state(*si->getStateSpace(), query.goal, goal.get());
     problem->setStartAndGoalStates(start, goal);
-    auto objective = std::make_shared<GuidedPathLength>(si, query.guidance, extent, query.seed);
+    auto objective = std::make_shared<GuidedPathLength>(si, query.guidance, extent, seeds);
     // Nothing is shorter than the way without obstacles: a path as short ends the search too, which
     // could only go on sampling an informed set that has become empty.
     const double shortest = si->distance(start.get(), goal.get());
@@ -98,9 +94,10 @@ Answer plan_geometric(const Query& query) {
     const auto started = Clock::now();
     const Extent extent{query.free_space.extent_x(), query.free_space.extent_y()};
     const auto states = std::make_shared<StateCount>(0);
-    const auto si = make_space_information(query, extent, states);
-    const auto problem = make_problem(query, extent, si);
-    const ob::PlannerPtr planner = seeded(query.seed, [&] {
+    const auto seeds = std::make_shared<Seeds>(query.seed);
+    const auto si = make_space_information(query, extent, states, seeds);
+    const auto problem = make_problem(query, extent, si, seeds);
+    const ob::PlannerPtr planner = seeded(seeds->next(), [&] {
         ob::PlannerPtr made = make_planner(query.planner, si, query.limits.vertices);
         if (!made) throw std::invalid_argument("unknown planner: " + query.planner);
         made->setProblemDefinition(problem);

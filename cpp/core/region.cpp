@@ -101,4 +101,15 @@ void GuidedSampler::sampleGaussian(ob::State* state, const ob::State* mean, doub
     local_->sampleGaussian(state, mean, deviation);
 }
 
+ob::StateSamplerAllocator guided_sampler_allocator(Guidance guidance, Extent extent,
+                                                   SeedsPtr seeds) {
+    return [guidance = std::move(guidance), extent,
+            seeds = std::move(seeds)](const ob::StateSpace* space) {
+        const std::uint32_t seed = seeds->next();
+        return seeded(seed, [&] {
+            return std::make_shared<GuidedSampler>(space, guidance, extent, seed);
+        });
+    };
+}
+
 }  // namespace planformer

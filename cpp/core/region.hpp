@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/curve.hpp"
+#include "core/seeding.hpp"
 
 namespace planformer {
 
@@ -75,5 +76,9 @@ private:
     Extent extent_;
     ompl::base::StateSamplerPtr local_;  ///< OMPL's own sampler, for draws near a given state
 };
+
+/// Makes `GuidedSampler`s; give it to a state space.
+ompl::base::StateSamplerAllocator guided_sampler_allocator(Guidance guidance, Extent extent,
+                                                           SeedsPtr seeds);
 
 }  // namespace planformer

@@ -3,9 +3,30 @@
 #include <ompl/util/RandomNumbers.h>
 
 #include <cstdint>
+#include <memory>
 #include <mutex>
 
 namespace planformer {
+
+/// The seeds of one plan's parts, all different.
+///
+/// Two samplers with one seed draw the same states, and among equal states planners choose by
+/// memory address.
+class Seeds {
+public:
+    explicit Seeds(std::uint32_t seed) : last_(seed) {}
+
+    /// A Weyl sequence, which visits all 2^32 numbers; OMPL takes zero for "no seed".
+    std::uint32_t next() {
+        last_ += 0x9e3779b9u;
+        return last_ == 0 ? next() : last_;
+    }
+
+private:
+    std::uint32_t last_;
+};
+
+using SeedsPtr = std::shared_ptr<Seeds>;
 
 /// Runs `make` so that every OMPL object it constructs draws the same numbers for the same seed.
 ///
@@ -16,7 +37,7 @@ auto seeded(std::uint32_t seed, Make&& make) {
     // Recursive: constructing a planner may allocate samplers that are seeded here as well.
     static std::recursive_mutex mutex;
     const std::lock_guard<std::recursive_mutex> lock(mutex);
-    ompl::RNG::setSeed(seed == 0 ? 1 : seed);  // OMPL takes zero for "no seed"
+    ompl::RNG::setSeed(seed);
     return make();
 }
 

@@ -132,22 +132,20 @@ private:
     std::shared_ptr<const CarGoal> goal_;
 };
 
-ob::StateSpacePtr make_space(const Query& query, const Extent& extent, const StateCountPtr& count) {
+ob::StateSpacePtr make_space(const Query& query, const Extent& extent, const StateCountPtr& count,
+                             const SeedsPtr& seeds) {
     auto space = std::make_shared<Counted<ob::SE2StateSpace>>(count);
     ob::RealVectorBounds bounds(2);
     bounds.setLow(0.0);
     bounds.setHigh(0, extent.x);
     bounds.setHigh(1, extent.y);
     space->setBounds(bounds);
-    space->setStateSamplerAllocator(
-        [guidance = query.guidance, extent, seed = query.seed](const ob::StateSpace* s) {
-            return seeded(
-                seed, [&] { return std::make_shared<GuidedSampler>(s, guidance, extent, seed); });
-        });
+    space->setStateSamplerAllocator(guided_sampler_allocator(query.guidance, extent, seeds));
     return space;
 }
 
-oc::ControlSpacePtr make_controls(const Query& query, const ob::StateSpacePtr& space) {
+oc::ControlSpacePtr make_controls(const Query& query, const ob::StateSpacePtr& space,
+                                  const SeedsPtr& seeds) {
     auto controls = std::make_shared<oc::RealVectorControlSpace>(space, 2);
     const double steering = std::atan(query.robot.wheelbase / query.robot.turning_radius);
     ob::RealVectorBounds bounds(2);
@@ -156,17 +154,18 @@ oc::ControlSpacePtr make_controls(const Query& query, const ob::StateSpacePtr& s
     bounds.setLow(1, -steering);
     bounds.setHigh(1, steering);
     controls->setBounds(bounds);
-    controls->setControlSamplerAllocator([seed = query.seed](const oc::ControlSpace* c) {
-        return seeded(seed, [&] { return c->allocDefaultControlSampler(); });
+    controls->setControlSamplerAllocator([seeds](const oc::ControlSpace* c) {
+        return seeded(seeds->next(), [&] { return c->allocDefaultControlSampler(); });
     });
     return controls;
 }
 
 std::shared_ptr<oc::SpaceInformation> make_space_information(const Query& query,
                                                              const Extent& extent,
-                                                             const StateCountPtr& count) {
-    const ob::StateSpacePtr space = make_space(query, extent, count);
-    auto si = std::make_shared<oc::SpaceInformation>(space, make_controls(query, space));
+                                                             const StateCountPtr& count,
+                                                             const SeedsPtr& seeds) {
+    const ob::StateSpacePtr space = make_space(query, extent, count, seeds);
+    auto si = std::make_shared<oc::SpaceInformation>(space, make_controls(query, space, seeds));
     si->setStateValidityChecker(std::make_shared<GridValidityChecker>(si, query.free_space));
     si->setMotionValidator(std::make_shared<GridMotionValidator>(si, query.free_space));
     si->setStatePropagator(
@@ -225,9 +224,10 @@ Answer plan_sst(const Query& query) {
     const auto started = Clock::now();
     const Extent extent{query.free_space.extent_x(), query.free_space.extent_y()};
     const auto states = std::make_shared<StateCount>(0);
-    const auto si = make_space_information(query, extent, states);
+    const auto seeds = std::make_shared<Seeds>(query.seed);
+    const auto si = make_space_information(query, extent, states, seeds);
     const auto problem = make_problem(query, si);
-    const auto planner = seeded(query.seed, [&] {
+    const auto planner = seeded(seeds->next(), [&] {
         auto made = std::make_shared<oc::SST>(si);
         made->setSelectionRadius(kSelectionRadius);
         made->setPruningRadius(kPruningRadius);

@@ -11,7 +11,6 @@ from planformer.models import (
     create_model,
     load_checkpoint,
     preset,
-    replace_file,
     save_checkpoint,
 )
 
@@ -40,17 +39,3 @@ def test_refuses_what_is_no_checkpoint(tmp_path, damage):
         torch.save([1, 2], path)
     with pytest.raises(InvalidWeights):
         load_checkpoint(path)
-
-
-def test_a_failed_write_leaves_the_old_file(tmp_path):
-    path = tmp_path / "file"
-    replace_file(path, lambda file: file.write(b"old"))
-
-    def fail(file):
-        file.write(b"half")
-        raise RuntimeError("disk full")
-
-    with pytest.raises(RuntimeError):
-        replace_file(path, fail)
-    assert path.read_bytes() == b"old"
-    assert [p.name for p in tmp_path.iterdir()] == ["file"]

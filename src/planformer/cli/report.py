@@ -14,8 +14,8 @@ from rich.text import Text
 import planformer
 from planformer.cli.console import print_facts, to_json
 from planformer.errors import InvalidParameter
+from planformer.files import write_files
 from planformer.maps import OccupancyGrid
-from planformer.maps._files import write_files
 from planformer.planning import PlanResult
 from planformer.plotting import plot_result, save_picture
 from planformer.plotting.words import duration, outcome

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -14,7 +14,6 @@ from planformer.cli.console import print_facts, print_json, stderr
 from planformer.cli.exit_codes import INTERRUPTED
 
 if TYPE_CHECKING:
-    from planformer.models import MPTConfig
     from planformer.training import Progress, TrainConfig, TrainResult
 
 
@@ -48,10 +47,10 @@ def train_command(
     """
     from planformer.data.dataset import PathDataset
     from planformer.models import preset as network_preset
-    from planformer.training import train
+    from planformer.training import config_for, train
 
     network = network_preset(preset)
-    config = _config(
+    config = config_for(
         network,
         steps=steps,
         seconds=None if minutes is None else 60.0 * minutes,
@@ -70,16 +69,6 @@ def train_command(
     _print_outcome(result, as_json=as_json)
     if not result.finished:
         raise typer.Exit(INTERRUPTED)
-
-
-def _config(network: MPTConfig, **given: Any) -> TrainConfig:
-    """The settings that were given; the paper's network has the paper's defaults."""
-    from planformer.models import TransformerBody
-    from planformer.training import Recipe, TrainConfig
-
-    is_paper = isinstance(network.body, TransformerBody)
-    defaults: dict[str, Any] = {"recipe": Recipe.PAPER, "warmup_steps": 3200} if is_paper else {}
-    return TrainConfig(**defaults, **{k: v for k, v in given.items() if v is not None})
 
 
 @contextmanager

@@ -25,9 +25,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from planformer.data.files import whole_file
 from planformer.data.recipe import MapRecipe
 from planformer.errors import InvalidDataset
+from planformer.files import whole_file
 
 
 class MapPaths(NamedTuple):

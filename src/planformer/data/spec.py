@@ -9,9 +9,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from planformer.data.files import whole_file
 from planformer.data.recipe import GENERATORS
 from planformer.errors import InvalidDataset, InvalidParameter
+from planformer.files import whole_file
 
 MANIFEST = "dataset.json"
 FORMAT = 1

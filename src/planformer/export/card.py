@@ -8,7 +8,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from planformer.models import PRESETS, MPTConfig, replace_file
+from planformer.files import whole_file
+from planformer.models import PRESETS, MPTConfig
 
 CARD_VERSION = 1
 """Version of the card's format; raised when older readers would misread it."""
@@ -52,5 +53,6 @@ def write_card(
     }
     path = weights.with_suffix(".json")
     text = json.dumps(card, indent=2, allow_nan=False) + "\n"
-    replace_file(path, lambda file: file.write(text.encode()))
+    with whole_file(path) as file:
+        file.write(text.encode())
     return path

@@ -14,7 +14,8 @@ from planformer.encoding import NetworkScale
 from planformer.errors import InvalidWeights, MissingExtra
 from planformer.export.card import write_card
 from planformer.export.graph import MAP, QUERY, example_inputs, to_onnx
-from planformer.models import load_checkpoint, replace_file
+from planformer.files import whole_file
+from planformer.models import load_checkpoint
 
 TOLERANCE = 1e-4
 """Largest difference of a probability or heading component between ONNX Runtime and PyTorch."""
@@ -46,7 +47,7 @@ def export(checkpoint: str | Path, path: str | Path, *, name: str | None = None)
 
     Args:
         checkpoint: A file that `planformer.training.train` wrote.
-        path: The .onnx file to write; the card takes its name.
+        path: The .onnx file to write, its folder is created; the card takes its name.
         name: Name of the weights; by default the file's.
 
     Returns:
@@ -71,7 +72,9 @@ def export(checkpoint: str | Path, path: str | Path, *, name: str | None = None)
             f"the exported network differs from PyTorch's by {difference:.2g}; at most "
             f"{TOLERANCE} is allowed"
         )
-    replace_file(path, lambda file: file.write(content))
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with whole_file(path) as file:
+        file.write(content)
     card = write_card(
         path,
         network,

@@ -1,13 +1,13 @@
-"""Reading and writing map files: every failure names the file, nothing is written half."""
+"""Reading map files: every failure names the file."""
 
 from __future__ import annotations
 
 import contextlib
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from pathlib import Path
 
-from planformer.errors import InvalidMap, InvalidParameter
+from planformer.errors import InvalidMap
 
 PathLike = str | os.PathLike[str]
 
@@ -23,27 +23,6 @@ def read_bytes(path: Path) -> bytes:
     except (OSError, ValueError) as error:  # ValueError: a NUL in the name
         reason = getattr(error, "strerror", None) or error
         raise InvalidMap(f"cannot be read: {reason}") from error
-
-
-def write_files(contents: Mapping[Path, bytes]) -> None:
-    """Write files under temporary names, then rename all: an error leaves the old ones as they are.
-
-    Raises:
-        InvalidParameter: A file cannot be written.
-    """
-    temporary = {path.with_name(f".{path.name}.{os.getpid()}.tmp"): path for path in contents}
-    try:
-        for name, path in temporary.items():
-            name.write_bytes(contents[path])
-        for name, path in temporary.items():
-            name.replace(path)
-    except OSError as error:
-        names = ", ".join(map(str, contents))
-        raise InvalidParameter(f"{names}: cannot be written: {error.strerror or error}") from error
-    finally:
-        for name in temporary:
-            with contextlib.suppress(OSError):
-                name.unlink()
 
 
 @contextlib.contextmanager

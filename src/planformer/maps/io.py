@@ -9,7 +9,8 @@ from pathlib import Path
 import numpy as np
 
 from planformer.errors import InvalidMap, InvalidParameter
-from planformer.maps._files import PathLike, naming, read_bytes, write_files
+from planformer.files import write_files
+from planformer.maps._files import PathLike, naming, read_bytes
 from planformer.maps.grid import OccupancyGrid
 from planformer.maps.image import IMAGE_SUFFIXES, encode_png, load_image_map
 from planformer.maps.movingai import load_movingai_map

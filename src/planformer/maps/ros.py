@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planformer.errors import InvalidMap
-from planformer.maps._files import PathLike, naming, read_bytes, write_files
+from planformer.files import write_files
+from planformer.maps._files import PathLike, naming, read_bytes
 from planformer.maps.grid import OccupancyGrid
 from planformer.maps.image import Picture, read_picture
 

@@ -10,7 +10,7 @@ except ImportError as error:
 from planformer.models.config import PRESETS, CompactBody, MPTConfig, TransformerBody, preset
 from planformer.models.create import create_model
 from planformer.models.proposal import Proposal
-from planformer.models.storage import load_checkpoint, replace_file, save_checkpoint
+from planformer.models.storage import load_checkpoint, save_checkpoint
 
 __all__ = [
     "PRESETS",
@@ -21,6 +21,5 @@ __all__ = [
     "create_model",
     "load_checkpoint",
     "preset",
-    "replace_file",
     "save_checkpoint",
 ]

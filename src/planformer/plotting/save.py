@@ -9,7 +9,7 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from planformer.errors import InvalidParameter
-from planformer.maps._files import write_files
+from planformer.files import write_files
 
 _FORMATS = ("png", "pdf", "svg", "jpg")
 

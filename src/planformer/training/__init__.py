@@ -1,8 +1,8 @@
 """Training of the region proposal networks."""
 
 import planformer.models  # noqa: F401  # says how to install PyTorch where it is missing
-from planformer.training.config import Recipe, TrainConfig
+from planformer.training.config import Recipe, TrainConfig, config_for
 from planformer.training.train import Progress, TrainResult, train
 from planformer.training.validation import validate
 
-__all__ = ["Progress", "Recipe", "TrainConfig", "TrainResult", "train", "validate"]
+__all__ = ["Progress", "Recipe", "TrainConfig", "TrainResult", "config_for", "train", "validate"]

@@ -10,8 +10,8 @@ from pathlib import Path
 from planformer.data.dataset import PathDataset
 from planformer.encoding import QueryKind
 from planformer.errors import PlanformerError
-from planformer.models import PRESETS, MPTConfig, TransformerBody, preset
-from planformer.training.config import Recipe, TrainConfig
+from planformer.models import PRESETS, MPTConfig, preset
+from planformer.training.config import TrainConfig, config_for
 from planformer.training.train import Progress, train
 
 _REPORT_EVERY = 20
@@ -21,9 +21,10 @@ def main() -> int:
     """Run a training from the command line; returns the exit status."""
     options = _parser().parse_args()
     try:
+        network = _network(options)
         result = train(
-            _network(options),
-            _config(options),
+            network,
+            _config(options, network),
             PathDataset(options.data / "train"),
             options.output,
             validation=PathDataset(options.data / "val"),
@@ -66,13 +67,11 @@ def _network(options: argparse.Namespace) -> MPTConfig:
     return replace(network, query=options.query) if options.query else network
 
 
-def _config(options: argparse.Namespace) -> TrainConfig:
-    is_paper = isinstance(preset(options.preset).body, TransformerBody)
+def _config(options: argparse.Namespace, network: MPTConfig) -> TrainConfig:
     names = {field.name for field in fields(TrainConfig)}
-    given = {k: v for k, v in vars(options).items() if k in names and v is not None}
-    defaults = {"recipe": Recipe.PAPER, "warmup_steps": 3200} if is_paper else {}
+    given = {key: value for key, value in vars(options).items() if key in names}
     seconds = None if options.minutes is None else 60 * options.minutes
-    return TrainConfig(**{**defaults, **given, "seconds": seconds})
+    return config_for(network, **{**given, "seconds": seconds})
 
 
 def _print(progress: Progress) -> None:

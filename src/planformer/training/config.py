@@ -9,6 +9,7 @@ from enum import Enum
 from typing import Any
 
 from planformer.errors import InvalidParameter
+from planformer.models import MPTConfig, TransformerBody
 
 
 class Recipe(str, Enum):
@@ -109,3 +110,14 @@ class TrainConfig:
         if unknown := sorted(set(values) - set(known)):
             raise InvalidParameter(f"unknown training settings {unknown}; valid are {known}")
         return cls(**values)
+
+
+def config_for(network: MPTConfig, **given: Any) -> TrainConfig:
+    """Settings for a network: those given and not None; the rest are its recipe's defaults.
+
+    Raises:
+        InvalidParameter: A value is out of range.
+    """
+    is_paper = isinstance(network.body, TransformerBody)
+    defaults: dict[str, Any] = {"recipe": Recipe.PAPER, "warmup_steps": 3200} if is_paper else {}
+    return TrainConfig(**defaults | {k: v for k, v in given.items() if v is not None})

@@ -12,11 +12,11 @@ import torch
 from torch import nn, optim
 
 from planformer.errors import InvalidWeights
+from planformer.files import whole_file
 from planformer.models import (
     MPTConfig,
     create_model,
     load_checkpoint,
-    replace_file,
     save_checkpoint,
 )
 from planformer.training.config import TrainConfig
@@ -70,7 +70,8 @@ class TrainState:
             history=self.history,
         )
         if self.history:
-            replace_file(folder / LOG, lambda file: file.write(_csv(self.history)))
+            with whole_file(folder / LOG) as file:
+                file.write(_csv(self.history))
 
 
 def new_state(network: MPTConfig, config: TrainConfig, data: dict[str, Any]) -> TrainState:
