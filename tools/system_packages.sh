@@ -55,9 +55,9 @@ install() {
         as_root=(sudo)
     fi
     echo "Installing system packages: $*"
-    "${as_root[@]}" apt-get update --quiet
+    "${as_root[@]}" apt-get update >/dev/null
     "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
-        apt-get install --quiet --yes --no-install-recommends "$@" </dev/null
+        apt-get install --yes --no-install-recommends "$@" </dev/null >/dev/null
 }
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then

@@ -24,6 +24,9 @@ namespace og = ompl::geometric;
 
 namespace {
 
+/// A path that is at most this share longer than the way without obstacles is optimal.
+constexpr double kOptimalityGap = 1e-6;
+
 ob::RealVectorBounds bounds_of(const Extent& extent) {
     ob::RealVectorBounds bounds(2);
     bounds.setLow(0.0);
@@ -66,9 +69,8 @@ ob::ProblemDefinitionPtr make_problem(const Query& query, const Extent& extent,
     auto objective = std::make_shared<GuidedPathLength>(si, query.guidance, extent, seeds);
     // Nothing is shorter than the way without obstacles: a path as short ends the search too, which
     // could only go on sampling an informed set that has become empty.
-    const double shortest = si->distance(start.get(), goal.get());
-    objective->setCostThreshold(
-        ob::Cost(std::max(query.limits.longest_on_target(), with_slack(shortest))));
+    const double optimal = si->distance(start.get(), goal.get()) * (1.0 + kOptimalityGap);
+    objective->setCostThreshold(ob::Cost(std::max(query.limits.longest_on_target(), optimal)));
     problem->setOptimizationObjective(objective);
     return problem;
 }

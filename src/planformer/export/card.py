@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import subprocess
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -26,7 +27,8 @@ def write_card(
     """Describe an .onnx file in a JSON file of the same name beside it, replaced as a whole.
 
     Its keys: ``version`` of the format; ``name``; ``sha256`` of the .onnx file; ``robot``,
-    "point" or "dubins"; ``preset``, null for a network of one's own; ``network``, see
+    "point" or "dubins"; ``commit`` of the source they were exported with, null outside a
+    checkout; ``preset``, null for a network of one's own; ``network``, see
     `MPTConfig.to_dict`; ``scale``, read by `NetworkScale.from_dict`; ``training`` and
     ``accuracy`` as given.
 
@@ -45,6 +47,7 @@ def write_card(
         "name": name,
         "sha256": hashlib.sha256(weights.read_bytes()).hexdigest(),
         "robot": "dubins" if network.headings else "point",
+        "commit": _commit(),
         "preset": next((known for known, made in PRESETS.items() if made == network), None),
         "network": network.to_dict(),
         "scale": network.scale.to_dict(),
@@ -56,3 +59,15 @@ def write_card(
     with whole_file(path) as file:
         file.write(text.encode())
     return path
+
+
+def _commit() -> str | None:
+    """The commit of the source tree that this module belongs to, None for an installed package."""
+    source = Path(__file__).resolve().parent
+    command = ["git", "-C", str(source), "ls-files", "--error-unmatch", Path(__file__).name]
+    try:
+        subprocess.run(command, check=True, capture_output=True)
+        head = ["git", "-C", str(source), "rev-parse", "HEAD"]
+        return subprocess.run(head, check=True, capture_output=True, text=True).stdout.strip()
+    except (OSError, subprocess.CalledProcessError):
+        return None

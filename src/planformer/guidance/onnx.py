@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import onnxruntime
@@ -31,6 +32,10 @@ class OnnxNetwork:
         Returns:
             (h, w) probabilities and, from a network for SE(2), (h, w) headings in rad in the map's
             own frame.
+
+        Raises:
+            WeightsMismatch: The network does not fit the robot or its card.
+            InvalidWeights: It predicts values that are not finite.
         """
         scale = self.weights.scale
         if scale.headings and problem.robot.state_dimension == 2:
@@ -40,14 +45,34 @@ class OnnxNetwork:
             )
         pixels = network_map(problem.blocked, problem.grid.resolution, scale)
         query = encode_query(pixels, problem.local_start, problem.local_goal, scale)
-        outputs = self.session.run(None, {"map": pixels[None, None], "query": query[None]})
-        probability = outputs[0][0, 0]
-        if not np.isfinite(probability).all():
-            raise InvalidWeights(f"the weights {self.weights.name} predict no finite probability")
+        outputs = self._run({"map": pixels[None, None], "query": query[None]})
+        self._check(outputs, tuple(size // scale.stride for size in pixels.shape))
         if not scale.headings:
-            return probability, None
+            return outputs[0][0, 0], None
         cos, sin = outputs[1][0].astype(np.float64)
-        return probability, np.arctan2(sin, cos)
+        return outputs[0][0, 0], np.arctan2(sin, cos)
+
+    def _run(self, inputs: dict[str, NDArray[Any]]) -> list[NDArray[np.float32]]:
+        try:
+            outputs: list[NDArray[np.float32]] = self.session.run(None, inputs)
+        except Exception as error:  # ONNX Runtime's exceptions share no public base class
+            raise WeightsMismatch(
+                f"the weights {self.weights.name} do not take what their card says: {error}"
+            ) from error
+        return outputs
+
+    def _check(self, outputs: list[NDArray[np.float32]], tokens: tuple[int, ...]) -> None:
+        expected = [(1, 1, *tokens), (1, 2, *tokens)][: 1 + self.weights.scale.headings]
+        shapes = [np.shape(output) for output in outputs]
+        if shapes != expected:
+            raise WeightsMismatch(
+                f"the weights {self.weights.name} predict arrays of shapes {shapes} where their "
+                f"card promises {expected}"
+            )
+        if not all(np.isfinite(output).all() for output in outputs):
+            raise InvalidWeights(
+                f"the weights {self.weights.name} predict values that are no number"
+            )
 
 
 @dataclass(frozen=True)

@@ -5,13 +5,15 @@ from __future__ import annotations
 import dataclasses
 import time
 from collections.abc import Sequence
+from typing import cast
 
-from planformer.errors import UnknownGuide
+from planformer.errors import InvalidParameter, UnknownGuide
 from planformer.guidance.onnx import OnnxProposer, load_network
 from planformer.guidance.proposer import RegionProposer
 from planformer.guidance.region import Region
 from planformer.maps import OccupancyGrid
 from planformer.planning import CancelToken, PlanResult, Problem, SearchLimits, search
+from planformer.planning.problem import State
 from planformer.robots import Robot
 
 
@@ -46,7 +48,8 @@ def plan(
         guide: Name of shipped weights, path of an .onnx file, a `RegionProposer`, or None for an
             unguided planner.
         threshold: Probability above which an anchor belongs to the region: 0.5 as in the paper, or
-            None to choose the one that connects start and goal in this query.
+            None to choose the one that connects start and goal in this query. Only for a guide
+            given by name.
         exploration: Share of samples drawn outside the region, from the whole map; 0 = region
             only, 0.5 = the paper's alternation of exploitation and exploration (-EE).
         time_limit: Wall-clock limit of the search in seconds, None for none.
@@ -64,7 +67,7 @@ def plan(
         UnknownPlanner: No such planner for this robot. Likewise UnknownGuide.
         InvalidParameter: Another value is out of range.
     """
-    problem = Problem(grid, robot, tuple(start), tuple(goal))
+    problem = Problem(grid, robot, cast(State, start), cast(State, goal))
     limits = SearchLimits(time_limit, target_length, max_vertices)
     region, seconds = None, 0.0
     if guide is not None:
@@ -94,7 +97,7 @@ def propose_region(
     threshold: float | None = None,
 ) -> Region:
     """Propose where on the map a good path runs, without planning; arguments as in `plan`."""
-    problem = Problem(grid, robot, tuple(start), tuple(goal))
+    problem = Problem(grid, robot, cast(State, start), cast(State, goal))
     return resolve_guide(guide, threshold).propose(problem)
 
 
@@ -103,11 +106,16 @@ def resolve_guide(guide: str | RegionProposer, threshold: float | None = None) -
 
     Raises:
         UnknownGuide: The name is unknown, or the object cannot propose regions.
+        InvalidParameter: A threshold is out of range, or given for an object that has its own.
     """
     if isinstance(guide, str):
         return OnnxProposer(load_network(guide), threshold)
     if not isinstance(guide, RegionProposer):
         raise UnknownGuide(
             f"guide must be a name, a RegionProposer or None; got {type(guide).__name__}"
+        )
+    if threshold is not None:
+        raise InvalidParameter(
+            f"a threshold needs the name of weights as guide; set it in the {type(guide).__name__}"
         )
     return guide

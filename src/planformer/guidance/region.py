@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planformer.encoding import NetworkScale, anchor_points
+from planformer.errors import InvalidParameter
 from planformer.maps import OccupancyGrid
 from planformer.planning import Problem, SamplingRegion, is_connected
 
@@ -93,7 +94,16 @@ def make_region(
         threshold: Fixed threshold in [0, 1]; 0.5 is the paper's. None chooses it for this query:
             the highest one at which start and goal are connected, relaxed.
 
+    Raises:
+        InvalidParameter: The probabilities or headings are no (h, w) arrays of finite numbers, or
+            a probability is outside [0, 1].
     """
+    probability = _checked_probability(probability)
+    if headings is not None and headings.shape != probability.shape:
+        raise InvalidParameter(
+            f"headings must have the shape of the probability, {probability.shape}; "
+            f"got {headings.shape}"
+        )
     height, width = probability.shape
     local = anchor_points(height * scale.stride, width * scale.stride, scale)
     cells = spread(probability, problem.grid, scale)
@@ -111,6 +121,16 @@ def make_region(
         headings=None if headings is None else headings + frame.yaw,
         cell_area=problem.grid.resolution**2,
     )
+
+
+def _checked_probability(probability: NDArray[np.float32]) -> NDArray[np.float32]:
+    # One type for all that is compared with the threshold.
+    values = np.asarray(probability, dtype=np.float32)
+    if values.ndim != 2 or values.size == 0:
+        raise InvalidParameter(f"probability must have shape (h, w); got {values.shape}")
+    if not ((values >= 0.0) & (values <= 1.0)).all():
+        raise InvalidParameter("probabilities must be between 0 and 1")
+    return values
 
 
 def spread(

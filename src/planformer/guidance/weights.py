@@ -13,7 +13,7 @@ from planformer.errors import InvalidParameter, InvalidWeights, UnknownGuide, We
 
 SHIPPED = Path(__file__).resolve().parent.parent / "weights"
 
-ALIASES = {"mpt": "mpt_small.forest_maze"}
+ALIASES = {"mpt": "mpt_small.forest_maze_indoor"}
 """Short names for the recommended weights."""
 
 CARD_VERSION = 1
@@ -41,7 +41,8 @@ class Weights:
 
 def guide_names() -> list[str]:
     """Names of the shipped weights, aliases first."""
-    return [*ALIASES, *sorted(path.stem for path in SHIPPED.glob("*.onnx"))]
+    names = sorted(path.stem for path in SHIPPED.glob("*.onnx"))
+    return [*(alias for alias, name in ALIASES.items() if name in names), *names]
 
 
 def weights_path(guide: str) -> Path:

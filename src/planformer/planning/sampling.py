@@ -29,7 +29,7 @@ class SamplingRegion:
         area: Area of the union of the shapes in square metres.
 
     Raises:
-        InvalidParameter: Empty or mismatched arrays, or a size that is not positive.
+        InvalidParameter: Empty, mismatched or not finite arrays, or a size that is not positive.
     """
 
     anchors: NDArray[np.float64]
@@ -46,7 +46,11 @@ class SamplingRegion:
             raise InvalidParameter(
                 f"headings must have shape ({len(self.anchors)},); got {self.headings.shape}"
             )
-        if not (self.half_width > 0.0 and self.area > 0.0):
+        sizes = (self.half_width, self.area)
+        if not (np.isfinite(sizes).all() and min(sizes) > 0.0):
             raise InvalidParameter(
-                f"half_width and area must be > 0; got {self.half_width} and {self.area}"
+                f"half_width and area must be finite and > 0; got {self.half_width} and {self.area}"
             )
+        values = (self.anchors, () if self.headings is None else self.headings)
+        if not all(np.isfinite(value).all() for value in values):
+            raise InvalidParameter("anchors and headings must be finite")

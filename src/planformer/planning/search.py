@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import time
 from dataclasses import dataclass
+from numbers import Integral
 
 import cv2
 import numpy as np
@@ -12,7 +13,7 @@ from numpy.typing import NDArray
 
 from planformer import _core
 from planformer.errors import InvalidParameter, UnknownPlanner
-from planformer.planning.problem import Problem
+from planformer.planning.problem import Problem, State
 from planformer.planning.result import PlanResult, PlanStatus, Tree
 from planformer.planning.sampling import ELLIPSE_ASPECT, YAW_DEVIATION, SamplingRegion
 from planformer.planning.validity import path_is_valid
@@ -40,7 +41,7 @@ class SearchLimits:
         max_vertices: Stop when the tree holds this many states.
 
     Raises:
-        InvalidParameter: A limit is not positive.
+        InvalidParameter: A limit is not positive, or a number of vertices is not whole.
     """
 
     seconds: float | None = 5.0
@@ -52,6 +53,8 @@ class SearchLimits:
             value = getattr(self, name)
             if value is not None and not value > 0:
                 raise InvalidParameter(f"{name} must be > 0 or None; got {value}")
+        if not isinstance(self.max_vertices, Integral | None):
+            raise InvalidParameter(f"max_vertices must be whole; got {self.max_vertices}")
 
 
 def planner_names(robot: Robot) -> list[str]:
@@ -99,8 +102,10 @@ def search(
         )
     if not 0.0 <= exploration <= 1.0:
         raise InvalidParameter(f"exploration must be between 0 and 1; got {exploration}")
+    if np.array_equal(problem.local_start, problem.local_goal):
+        return _without_search(problem, PlanStatus.FINISHED, [problem.start, problem.goal], started)
     if not is_connected(~problem.blocked, problem):
-        return _no_path(problem, PlanStatus.UNREACHABLE, time.perf_counter() - started)
+        return _without_search(problem, PlanStatus.UNREACHABLE, [], started)
     limits = limits or SearchLimits()
     preparation = time.perf_counter() - started
     answer = _core.plan(
@@ -158,8 +163,8 @@ def _core_region(region: SamplingRegion, problem: Problem) -> _core.Region:
 def _checked_seed(seed: int | None) -> int:
     if seed is None:
         return int(np.random.default_rng().integers(1, 2**32))
-    if not 0 <= seed < 2**32:
-        raise InvalidParameter(f"seed must be between 0 and 2**32 - 1; got {seed}")
+    if not (isinstance(seed, Integral) and 0 <= seed < 2**32):
+        raise InvalidParameter(f"seed must be whole, between 0 and 2**32 - 1; got {seed}")
     return int(seed)
 
 
@@ -192,12 +197,15 @@ def _to_result(
     )
 
 
-def _no_path(problem: Problem, status: PlanStatus, seconds: float) -> PlanResult:
+def _without_search(
+    problem: Problem, status: PlanStatus, states: list[State], started: float
+) -> PlanResult:
+    """The result where the answer is plain: `states` is a path without length or no path."""
     return PlanResult(
-        solved=False,
+        solved=len(states) > 0,
         status=status,
-        path=np.empty((0, problem.robot.state_dimension)),
-        length=math.inf,
+        path=np.array(states, dtype=np.float64).reshape(-1, problem.robot.state_dimension),
+        length=0.0 if states else math.inf,
         vertices=0,
-        planning_seconds=seconds,
+        planning_seconds=time.perf_counter() - started,
     )

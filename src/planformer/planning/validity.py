@@ -13,8 +13,8 @@ from planformer.errors import InvalidProblem
 from planformer.maps import OccupancyGrid
 from planformer.robots import Robot
 
-_SHORTEST_PIECE = 1e-7
-"""Pieces of a segment below this length [cells] are rounding noise at a grid line or corner."""
+_NOISE = 1e-7
+"""Distances below this [cells] are the rounding noise of turning into the world frame and back."""
 
 
 def path_is_valid(grid: OccupancyGrid, robot: Robot, path: ArrayLike) -> bool:
@@ -52,11 +52,30 @@ def path_is_valid(grid: OccupancyGrid, robot: Robot, path: ArrayLike) -> bool:
 def touched_cells_blocked(blocked: NDArray[np.bool_], points: NDArray[np.float64]) -> bool:
     """Whether a polyline touches a blocked cell or leaves the grid.
 
+    A polyline that is free when moved by rounding noise is free: a robot may drive along the edge of
+    a blocked cell, where noise throws its poses to either side.
+
     Args:
         blocked: (H, W) bool.
         points: (N, 2) vertices (x, y) in cells, N >= 1.
     """
-    return _any_blocked(blocked, points[:1]) or _any_blocked(blocked, _pieces(points))
+    return _touches(blocked, points) and _touches(blocked, points + _NOISE)
+
+
+def _touches(blocked: NDArray[np.bool_], points: NDArray[np.float64]) -> bool:
+    # With its ends on the grid a segment lies on it as a whole.
+    if not _all_inside(blocked, points) or _any_blocked(blocked, _cells(points)):
+        return True
+    cells = _cells(np.clip(_pieces(points), points.min(axis=0), points.max(axis=0)))
+    return _any_blocked(blocked, cells) or _slips_through(blocked, cells)
+
+
+def _slips_through(blocked: NDArray[np.bool_], cells: NDArray[np.int64]) -> bool:
+    """Whether consecutive (M, 2) cells meet at a corner only, between two blocked ones."""
+    before, after = cells[:-1], cells[1:]
+    corner = (before != after).all(axis=1)
+    beside = blocked[before[:, 0], after[:, 1]] & blocked[after[:, 0], before[:, 1]]
+    return bool((corner & beside).any())
 
 
 def _pieces(points: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -70,7 +89,7 @@ def _pieces(points: NDArray[np.float64]) -> NDArray[np.float64]:
     order = np.lexsort((along, segment))
     segment, along = segment[order], along[order]
     lengths = np.hypot(steps[:, 0], steps[:, 1])[segment[:-1]]
-    pieces = (segment[1:] == segment[:-1]) & (np.diff(along) * lengths > _SHORTEST_PIECE)
+    pieces = (segment[1:] == segment[:-1]) & (np.diff(along) * lengths > _NOISE)
     owner, middle = segment[:-1][pieces], 0.5 * (along[:-1] + along[1:])[pieces]
     return np.asarray(starts[owner] + middle[:, None] * steps[owner])
 
@@ -94,10 +113,14 @@ def _crossings(
     return owner, (first[owner] + rank - start[owner]) / step[owner]
 
 
-def _any_blocked(blocked: NDArray[np.bool_], points: NDArray[np.float64]) -> bool:
-    cells = np.floor(points).astype(np.int64)
-    rows, cols = cells[:, 1], cells[:, 0]
-    height, width = blocked.shape
-    if ((rows < 0) | (rows >= height) | (cols < 0) | (cols >= width)).any():
-        return True
-    return bool(blocked[rows, cols].any())
+def _cells(points: NDArray[np.float64]) -> NDArray[np.int64]:
+    """(M, 2) cells (row, col) of (M, 2) points."""
+    return np.floor(points[:, ::-1]).astype(np.int64)
+
+
+def _all_inside(blocked: NDArray[np.bool_], points: NDArray[np.float64]) -> bool:
+    return bool(((points >= 0) & (points < blocked.shape[::-1])).all())
+
+
+def _any_blocked(blocked: NDArray[np.bool_], cells: NDArray[np.int64]) -> bool:
+    return bool(blocked[cells[:, 0], cells[:, 1]].any())
