@@ -1,11 +1,17 @@
 /// Python functions of the searches on the grid itself.
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/optional.h>
+
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "bindings/bindings.hpp"
 #include "core/lazy_theta.hpp"
 #include "core/wavefront.hpp"
+#include "core/widest_path.hpp"
 
 namespace planformer {
 namespace {
@@ -42,6 +48,33 @@ NumpyArray<float> find_distances(const BlockedArray& blocked, std::int64_t row, 
     return to_numpy(std::move(distances), {blocked.shape(0), blocked.shape(1)});
 }
 
+using ValueArray = nb::ndarray<const float, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
+using Cell = std::array<int, 2>;
+
+int index_of(const FreeSpace& space, const Cell& cell) {
+    const auto [row, col] = cell;
+    if (row < 0 || row >= space.height || col < 0 || col >= space.width) {
+        throw nb::index_error("the cell lies outside the grid");
+    }
+    return row * space.width + col;
+}
+
+std::optional<float> find_widest_path(const BlockedArray& blocked, const ValueArray& values,
+                                      const Cell& from, const Cell& to) {
+    const FreeSpace space = free_space_of(blocked, 1.0);
+    if (values.shape(0) != blocked.shape(0) || values.shape(1) != blocked.shape(1)) {
+        throw nb::value_error("values and blocked must have the same shape");
+    }
+    const int first = index_of(space, from);
+    const int last = index_of(space, to);
+    float level = kNoPath;
+    {
+        const nb::gil_scoped_release unlocked;
+        level = widest_path(space, values.data(), first, last);
+    }
+    return level == kNoPath ? std::nullopt : std::optional<float>(level);
+}
+
 }  // namespace
 
 void register_grid_search(nb::module_& m) {
@@ -52,6 +85,10 @@ void register_grid_search(nb::module_& m) {
     m.def("wavefront", &find_distances, nb::arg("blocked"), nb::arg("row"), nb::arg("col"),
           "Geodesic distance in cells from one cell to all, (h, w) float32, infinite where\n"
           "unreachable; 8-connected, diagonal steps don't cut corners.");
+    m.def("widest_path", &find_widest_path, nb::arg("blocked"), nb::arg("values"),
+          nb::arg("start"), nb::arg("goal"),
+          "The largest value such that free cells of at least that value join two cells (row,\n"
+          "col) through 4-neighbours; None when no free cells of values >= 0 do.");
 }
 
 }  // namespace planformer

@@ -106,6 +106,12 @@ def lazy_theta(
     goal: NDArray[np.float64],
 ) -> NDArray[np.float64]: ...
 def wavefront(blocked: NDArray[np.bool_], row: int, col: int) -> NDArray[np.float32]: ...
+def widest_path(
+    blocked: NDArray[np.bool_],
+    values: NDArray[np.float32],
+    start: Sequence[int],
+    goal: Sequence[int],
+) -> float | None: ...
 
 # curves.cpp
 

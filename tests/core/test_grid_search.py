@@ -229,3 +229,31 @@ def test_wavefront_equals_dijkstra_on_a_large_maze():
 def test_a_wavefront_source_outside_the_grid_is_refused(source):
     with pytest.raises(IndexError):
         _core.wavefront(np.zeros((2, 3), bool), *source)
+
+
+@given(shape=st.tuples(st.integers(1, 12), st.integers(1, 12)), seed=st.integers(0, 2**32 - 1))
+def test_widest_path_is_the_highest_level_that_connects(shape, seed):
+    rng = np.random.default_rng(seed)
+    blocked = rng.random(shape) < 0.2
+    values = rng.choice([-1.0, 0.0, 0.1, 0.4, 0.5, 0.9], shape).astype(np.float32)
+    start, goal = (tuple(int(rng.integers(n)) for n in shape) for _ in range(2))
+    connecting = [
+        level
+        for level in np.unique(values[values >= 0])
+        if _joined((values >= level) & ~blocked, start, goal)
+    ]
+    expected = max(connecting, default=None)
+    assert _core.widest_path(blocked, values, start, goal) == expected
+
+
+def _joined(free, start, goal):
+    labels, _ = ndimage.label(free)
+    return labels[start] != 0 and labels[start] == labels[goal]
+
+
+def test_widest_path_refuses_cells_outside_and_other_shapes():
+    blocked, values = np.zeros((3, 4), bool), np.zeros((3, 4), np.float32)
+    with pytest.raises(IndexError):
+        _core.widest_path(blocked, values, (0, 0), (3, 0))
+    with pytest.raises(ValueError, match="same shape"):
+        _core.widest_path(blocked, values[:2], (0, 0), (1, 0))

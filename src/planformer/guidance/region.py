@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from planformer import _core
 from planformer.encoding import NetworkScale, anchor_points
 from planformer.errors import InvalidParameter
 from planformer.maps import OccupancyGrid
@@ -178,16 +179,6 @@ def connecting_threshold(cells: NDArray[np.float32], problem: Problem) -> float:
     Returns:
         The threshold, or the paper's 0.5 where free space itself is disconnected.
     """
-    free = ~problem.blocked
-    values = np.unique(cells[cells >= 0.0])
-    # Invariant of the bisection: connected at values[low], not connected at values[high].
-    low, high = 0, len(values)
-    if not is_connected((cells >= values[low]) & free, problem):
-        return PAPER_THRESHOLD
-    while high - low > 1:
-        middle = (low + high) // 2
-        if is_connected((cells >= values[middle]) & free, problem):
-            low = middle
-        else:
-            high = middle
-    return float(values[low])
+    start, goal = problem.grid.to_rc([problem.start[:2], problem.goal[:2]]).tolist()
+    widest = _core.widest_path(problem.blocked, cells, start, goal)
+    return PAPER_THRESHOLD if widest is None else widest

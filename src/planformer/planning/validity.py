@@ -52,8 +52,8 @@ def path_is_valid(grid: OccupancyGrid, robot: Robot, path: ArrayLike) -> bool:
 def touched_cells_blocked(blocked: NDArray[np.bool_], points: NDArray[np.float64]) -> bool:
     """Whether a polyline touches a blocked cell or leaves the grid.
 
-    A polyline that is free when moved by rounding noise is free: a robot may drive along the edge of
-    a blocked cell, where noise throws its poses to either side.
+    A polyline that is free when moved by rounding noise is free: a robot may drive along the edge
+    of a blocked cell, where noise throws its poses to either side.
 
     Args:
         blocked: (H, W) bool.
