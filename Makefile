@@ -25,9 +25,9 @@ DEV_READY := $(VENV)/.stamp-dev
 .PHONY: demo
 demo: $(PACKAGE_READY)
 	mkdir -p demo
-	$(BIN)/planformer map indoor --seed 0 --output demo/map.yaml
-	$(BIN)/planformer plan demo/map.yaml --start 2.5 2 --goal 21.5 19.2 \
-	    --planner RRTstar --guide mpt --max-vertices 2000 --seed 1 --output demo
+	$(BIN)/planformer map indoor --seed 6 --output demo/office.yaml
+	$(BIN)/planformer plan demo/office.yaml --start 19.1 3.4 --goal 2 22.4 \
+	    --planner RRTstar --guide mpt --max-vertices 2500 --seed 1 --output demo
 
 ## test: run the test suite
 .PHONY: test
