@@ -20,14 +20,19 @@ EVERY_PLANNER = [
 
 
 def random_problem(
-    grid: pf.OccupancyGrid, robot: Any, seed: int, *, spread: float = 1e9, clearance: float = 0.05
+    grid: pf.OccupancyGrid,
+    robot: Any,
+    seed: int,
+    *,
+    apart: tuple[float, float] = (0.2, 1e9),
+    clearance: float = 0.05,
 ) -> Problem:
-    """Start and goal that are connected, at most `spread` metres apart, with room round them."""
+    """Start and goal that are connected, `apart` metres from each other, with room round them."""
     rng = np.random.default_rng(seed)
     cells = np.argwhere(~grid.blocked(robot.radius + clearance))
     for _ in range(1000):
         start, goal = grid.to_xy(cells[rng.integers(len(cells), size=2)])
-        if not 0.2 < np.hypot(*(goal - start)) <= spread:
+        if not apart[0] < np.hypot(*(goal - start)) < apart[1]:
             continue
         yaws = rng.uniform(-np.pi, np.pi, 2)[:, None] if robot.state_dimension == 3 else []
         ends = [(*start, *yaws[0]), (*goal, *yaws[1])] if len(yaws) else [start, goal]

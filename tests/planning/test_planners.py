@@ -15,10 +15,9 @@ from planformer.planning import PlanStatus, Problem, SearchLimits, is_connected,
 
 from .conftest import DUBINS, EVERY_PLANNER, POINT, REEDS_SHEPP, ROBOTS, random_problem
 
-LIMITS = SearchLimits(30.0, max_vertices=400)
-"""The vertices end these searches, the seconds only a failing test."""
-ONE_SHOT = {"RRT", "RRTConnect", "FMT", "BFMT"}
-"""Planners that end with the first path, or with their one batch of samples."""
+FIRST_PATH = SearchLimits(60.0, target_length=1000.0)
+SMALL = SearchLimits(60.0, max_vertices=150)
+"""The seconds end only the searches of a failing test."""
 
 
 def check(problem, result):
@@ -41,15 +40,15 @@ def check(problem, result):
 
 @pytest.mark.parametrize(("robot", "planner"), EVERY_PLANNER)
 def test_finds_a_valid_path(open_room, robot, planner):
-    for seed in (1, 2):
+    slow = planner == "FMT" and robot is not POINT  # a million curves before the search begins
+    for seed in range(1 if slow else 4):
         problem = random_problem(open_room, robot, seed)
-        result = search(problem, planner, limits=LIMITS, seed=seed)
+        result = search(problem, planner, limits=FIRST_PATH, seed=seed)
         check(problem, result)
-        expected = {PlanStatus.FINISHED, PlanStatus.VERTEX_LIMIT}
-        assert result.status in expected if planner in ONE_SHOT else expected - {None}
+        assert result.status is PlanStatus.TARGET_REACHED
 
 
-@pytest.mark.parametrize("planner", ["RRTConnect", "RRTstar", "BITstar", "InformedRRTstar", "FMT"])
+@pytest.mark.parametrize("planner", ["RRTConnect", "RRTstar", "BITstar", "InformedRRTstar"])
 @pytest.mark.parametrize("robot", ROBOTS, ids=lambda robot: type(robot).__name__)
 def test_paths_are_valid_on_many_maps(robot, planner, forest, maze):
     solved = 0
@@ -57,7 +56,7 @@ def test_paths_are_valid_on_many_maps(robot, planner, forest, maze):
     for number, grid in enumerate((forest, maze, indoor)):
         for seed in range(3):
             problem = random_problem(grid, robot, 10 * number + seed)
-            limits = SearchLimits(1.0, max_vertices=1500)
+            limits = SearchLimits(0.5, target_length=1000.0)
             result = search(problem, planner, limits=limits, seed=seed)
             assert result.status is not PlanStatus.INVALID_PATH
             if result.solved:
@@ -69,7 +68,7 @@ def test_paths_are_valid_on_many_maps(robot, planner, forest, maze):
 @pytest.mark.parametrize("robot", ROBOTS, ids=lambda robot: type(robot).__name__)
 def test_a_real_map_is_planned_on(real_maps, robot):
     grid = pf.load_map(real_maps / "depot.yaml")
-    problem = random_problem(grid, robot, 1, spread=8.0)
+    problem = random_problem(grid, robot, 1, apart=(2.0, 8.0))
     check(problem, search(problem, "RRTConnect", limits=SearchLimits(30.0), seed=1))
 
 
@@ -78,7 +77,7 @@ def test_the_seed_decides_the_result_also_in_parallel_threads(open_room, robot, 
     problem = random_problem(open_room, robot, 3)
 
     def run(seed):
-        return search(problem, planner, limits=LIMITS, seed=seed, keep_tree=True)
+        return search(problem, planner, limits=SMALL, seed=seed, keep_tree=True)
 
     alone = [run(seed) for seed in (7, 8)]
     with ThreadPoolExecutor(4) as threads:
@@ -92,14 +91,14 @@ def test_the_seed_decides_the_result_also_in_parallel_threads(open_room, robot, 
 
 def test_without_a_seed_each_search_is_another(open_room):
     problem = random_problem(open_room, POINT, 3)
-    first, second = (search(problem, "RRTstar", limits=LIMITS, keep_tree=True) for _ in range(2))
+    first, second = (search(problem, "RRTstar", limits=SMALL, keep_tree=True) for _ in range(2))
     assert not np.array_equal(first.tree.vertices, second.tree.vertices)
 
 
 @pytest.mark.parametrize(("robot", "planner"), EVERY_PLANNER)
 def test_the_tree_joins_free_vertices(open_room, robot, planner):
     problem = random_problem(open_room, robot, 4)
-    result = search(problem, planner, limits=LIMITS, seed=1, keep_tree=True)
+    result = search(problem, planner, limits=FIRST_PATH, seed=1, keep_tree=True)
     tree = result.tree
     assert len(tree.vertices) == result.vertices
     assert tree.vertices.shape[1] == robot.state_dimension
@@ -117,7 +116,7 @@ def test_the_tree_joins_free_vertices(open_room, robot, planner):
 @pytest.mark.parametrize("planner", [p for p in pf.planner_names(POINT) if p != "LazyPRMstar"])
 def test_the_edges_of_a_point_s_tree_are_free(open_room, planner):
     problem = random_problem(open_room, POINT, 4)
-    tree = search(problem, planner, limits=LIMITS, seed=1, keep_tree=True).tree
+    tree = search(problem, planner, limits=FIRST_PATH, seed=1, keep_tree=True).tree
     local = open_room.frame.to_local(tree.vertices)
     for parent, child in tree.edges:
         ends = (*local[parent], *local[child])
@@ -125,7 +124,7 @@ def test_the_edges_of_a_point_s_tree_are_free(open_room, planner):
 
 
 def test_no_tree_unless_asked_for(open_room):
-    assert search(random_problem(open_room, POINT, 4), "RRT", limits=LIMITS).tree is None
+    assert search(random_problem(open_room, POINT, 4), "RRT", limits=FIRST_PATH).tree is None
 
 
 @pytest.mark.parametrize(("robot", "planner"), EVERY_PLANNER)
@@ -134,9 +133,9 @@ def test_start_and_goal_in_one_cell(open_room, robot, planner):
     yaw = () if robot is POINT else (open_room.origin[2],)
     goal = open_room.frame.to_world(open_room.frame.to_local((x, y)) + (0.01, 0.0))
     problem = Problem(open_room, robot, (float(x), float(y), *yaw), (*goal.tolist(), *yaw))
-    result = search(problem, planner, limits=LIMITS, seed=1)
+    result = search(problem, planner, limits=FIRST_PATH, seed=1)
     check(problem, result)
-    if planner not in ("RRT", "RRTConnect"):
+    if planner in ("RRTstar", "BITstar", "InformedRRTstar", "PRMstar"):
         assert result.length == pytest.approx(0.01, rel=1e-3)
 
 
@@ -156,7 +155,7 @@ def test_a_car_turns_round_to_the_same_place(open_room):
     yaw = open_room.origin[2]
     problem = Problem(open_room, REEDS_SHEPP, (x, y, yaw), (x, y, yaw + 2.5))
     for planner in ("RRTstar", "InformedRRTstar", "BITstar"):
-        check(problem, search(problem, planner, limits=LIMITS, seed=1))
+        check(problem, search(problem, planner, limits=FIRST_PATH, seed=1))
 
 
 @pytest.mark.parametrize("planner", ["RRTstar", "InformedRRTstar", "BITstar", "ABITstar", "AITstar"])
@@ -195,9 +194,9 @@ def test_a_map_of_one_cell(planner):
     grid = pf.OccupancyGrid(np.zeros((1, 1), bool), 0.05, origin=(1.0, 2.0, 0.3))
     ends = grid.frame.to_world([(0.01, 0.01), (0.04, 0.03)])
     problem = Problem(grid, pf.PointRobot(radius=0.0), tuple(ends[0]), tuple(ends[1]))
-    result = search(problem, planner, limits=LIMITS, seed=1)
+    result = search(problem, planner, limits=FIRST_PATH, seed=1)
     assert result.solved
-    assert result.length == pytest.approx(np.hypot(0.03, 0.02))
+    assert np.hypot(0.03, 0.02) * (1 - 1e-9) <= result.length < 0.05
 
 
 def test_a_map_of_4000_x_4000_cells_with_a_goal_at_its_border():
@@ -232,4 +231,4 @@ def test_a_seed_is_a_whole_number_of_32_bits(open_room, seed):
 
 @pytest.mark.parametrize("seed", [0, 1, 2**32 - 1, np.int64(5)])
 def test_every_seed_of_32_bits_works(open_room, seed):
-    assert search(random_problem(open_room, POINT, 1), "RRTConnect", limits=LIMITS, seed=seed).solved
+    assert search(random_problem(open_room, POINT, 1), "RRTConnect", limits=FIRST_PATH, seed=seed).solved

@@ -71,7 +71,7 @@ class OnnxNetwork:
             )
         if not all(np.isfinite(output).all() for output in outputs):
             raise InvalidWeights(
-                f"the weights {self.weights.name} predict values that are no number"
+                f"the weights {self.weights.name} predict values that are not finite"
             )
 
 

@@ -13,11 +13,15 @@ from numpy.typing import NDArray
 
 from planformer import _core
 from planformer.errors import InvalidParameter, UnknownPlanner
+from planformer.geometry import wrap_angle
 from planformer.planning.problem import Problem, State
 from planformer.planning.result import PlanResult, PlanStatus, Tree
 from planformer.planning.sampling import ELLIPSE_ASPECT, YAW_DEVIATION, SamplingRegion
 from planformer.planning.validity import path_is_valid
 from planformer.robots import DubinsCar, Robot
+
+_SAME_STATE = 1e-9
+"""States that differ by no more [m, rad] are the same, a turn by 2 pi included."""
 
 CancelToken = _core.Cancellation
 """Ends a plan from another thread: pass it to `plan` and call its `cancel()`."""
@@ -102,7 +106,7 @@ def search(
         )
     if not 0.0 <= exploration <= 1.0:
         raise InvalidParameter(f"exploration must be between 0 and 1; got {exploration}")
-    if np.array_equal(problem.local_start, problem.local_goal):
+    if _starts_at_goal(problem):
         return _without_search(problem, PlanStatus.FINISHED, [problem.start, problem.goal], started)
     if not is_connected(~problem.blocked, problem):
         return _without_search(problem, PlanStatus.UNREACHABLE, [], started)
@@ -123,6 +127,13 @@ def search(
         cancellation=cancel,
     )
     return _to_result(answer, problem, preparation, keep_tree=keep_tree)
+
+
+def _starts_at_goal(problem: Problem) -> bool:
+    """Planners differ in what they do then: most search on, some drive a loop."""
+    offset = problem.local_goal - problem.local_start
+    offset[2] = wrap_angle(offset[2])
+    return bool((np.abs(offset) <= _SAME_STATE).all())
 
 
 def is_connected(free: NDArray[np.bool_], problem: Problem) -> bool:
