@@ -85,8 +85,8 @@ void register_grid_search(nb::module_& m) {
     m.def("wavefront", &find_distances, nb::arg("blocked"), nb::arg("row"), nb::arg("col"),
           "Geodesic distance in cells from one cell to all, (h, w) float32, infinite where\n"
           "unreachable; 8-connected, diagonal steps don't cut corners.");
-    m.def("widest_path", &find_widest_path, nb::arg("blocked"), nb::arg("values"),
-          nb::arg("start"), nb::arg("goal"),
+    m.def("widest_path", &find_widest_path, nb::arg("blocked"), nb::arg("values"), nb::arg("start"),
+          nb::arg("goal"),
           "The largest value such that free cells of at least that value join two cells (row,\n"
           "col) through 4-neighbours; None when no free cells of values >= 0 do.");
 }

@@ -106,9 +106,8 @@ ob::StateSamplerAllocator guided_sampler_allocator(Guidance guidance, Extent ext
     return [guidance = std::move(guidance), extent,
             seeds = std::move(seeds)](const ob::StateSpace* space) {
         const std::uint32_t seed = seeds->next();
-        return seeded(seed, [&] {
-            return std::make_shared<GuidedSampler>(space, guidance, extent, seed);
-        });
+        return seeded(
+            seed, [&] { return std::make_shared<GuidedSampler>(space, guidance, extent, seed); });
     };
 }
 

@@ -60,7 +60,7 @@ private:
     const FreeSpace& space_;
     const float* values_;
     std::vector<bool> seen_;
-    std::vector<int> flooded_;                         ///< in the flood, neighbours not yet seen
+    std::vector<int> flooded_;                          ///< in the flood, neighbours not yet seen
     std::priority_queue<std::pair<float, int>> shore_;  ///< beside the flood, below its level
     float level_ = std::numeric_limits<float>::infinity();
 };

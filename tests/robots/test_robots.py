@@ -1,82 +1,104 @@
 from __future__ import annotations
 
+import dataclasses
 import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import planformer as pf
 from planformer import _core
 from planformer.errors import InvalidRobot
 
-ANGLES = st.floats(-math.pi, math.pi)
-LENGTHS = st.floats(-5.0, 5.0)
+CARS = (pf.DubinsCar, pf.ReedsSheppCar)
+YAW = st.floats(-math.pi, math.pi)
+CURVATURE = st.floats(-1.0, 1.0)
 
 
-@pytest.mark.parametrize("value", [-0.1, float("nan"), float("inf")])
-@pytest.mark.parametrize("robot", [pf.PointRobot, pf.DubinsCar, pf.ReedsSheppCar])
-def test_a_radius_is_finite_and_not_negative(robot, value):
-    with pytest.raises(InvalidRobot, match=r"radius must be finite and >= 0"):
-        robot(radius=value)
-
-
-@pytest.mark.parametrize("value", [0.0, -0.5, float("nan"), float("inf")])
-@pytest.mark.parametrize("name", ["turning_radius", "wheelbase", "max_speed"])
-def test_the_dimensions_of_a_car_are_positive(name, value):
-    with pytest.raises(InvalidRobot, match=name):
-        pf.DubinsCar(**{name: value})
-
-
-def test_a_true_point_is_a_robot():
-    assert pf.PointRobot(radius=0).radius == 0.0
-
-
-def test_the_papers_car_steers_half_a_radian():
-    assert pf.DubinsCar(turning_radius=0.549, wheelbase=0.3).max_steering == pytest.approx(
-        0.5, abs=1e-3
-    )
-
-
-@given(x=LENGTHS, y=LENGTHS, start=ANGLES, goal=ANGLES, radius=st.floats(0.2, 2.0))
-@pytest.mark.parametrize("kind", [pf.DubinsCar, pf.ReedsSheppCar])
-def test_a_car_can_drive_its_own_curves(kind, x, y, start, goal, radius):
-    car = kind(turning_radius=radius)
-    poses = _core.curve_poses(
-        np.array([0.0, 0.0, start]), np.array([x, y, goal]), radius, car.reverses, 0.025
-    )
-    assert not car.motion_errors(poses).any()
-
-
-def _arc(radius: float, turn: float, count: int = 50) -> np.ndarray:
-    angles = np.linspace(0.0, turn, count)
+def drive(pose, curvature, steps):
+    """Poses along an arc of the unit circle's curvature times `curvature`, signed steps [m]."""
+    x, y, yaw = pose
+    along = np.concatenate(([0.0], np.cumsum(steps)))
+    turn = curvature * along
+    chord = along * np.sinc(turn / (2 * np.pi))
     return np.column_stack(
-        (radius * np.sin(np.abs(angles)), np.sign(turn) * radius * (1 - np.cos(angles)), angles)
+        (x + chord * np.cos(yaw + turn / 2), y + chord * np.sin(yaw + turn / 2), yaw + turn)
     )
 
 
-@pytest.mark.parametrize("turn", [1.0, -1.0])
-def test_a_turn_tighter_than_the_robots_is_an_error(turn):
-    car = pf.DubinsCar(turning_radius=0.55)
-    assert not car.motion_errors(_arc(0.55, turn)).any()
-    assert car.motion_errors(_arc(0.54, turn)).all()
+@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf, -0.1])
+@pytest.mark.parametrize("robot", [pf.PointRobot, *CARS])
+def test_impossible_dimensions_are_errors_that_name_them(robot, value):
+    for field in dataclasses.fields(robot):
+        with pytest.raises(InvalidRobot, match=f"{field.name} must be finite"):
+            robot(**{field.name: value})
 
 
-def test_a_car_does_not_skid_or_turn_on_the_spot():
-    car = pf.DubinsCar()
-    poses = np.array([[0, 0, 0], [0, 0.1, 0], [0, 0.1, 0.3], [0.1, 0.1 + 0.1 * math.tan(0.3), 0.3]])
-    np.testing.assert_array_equal(car.motion_errors(poses), [True, True, False])
+@pytest.mark.parametrize("robot", CARS)
+def test_only_the_radius_may_be_zero(robot):
+    for field in dataclasses.fields(robot):
+        if field.name == "radius":
+            assert robot(radius=0).radius == 0.0
+        else:
+            with pytest.raises(InvalidRobot, match="> 0"):
+                robot(**{field.name: 0.0})
 
 
-def test_only_a_reeds_shepp_car_reverses():
-    backwards = np.array([[0, 0, 0], [-0.5, 0, 0]], float)
-    assert pf.DubinsCar().motion_errors(backwards).all()
-    assert not pf.ReedsSheppCar().motion_errors(backwards).any()
+def test_robots_are_values():
+    assert pf.PointRobot(0.2) == pf.PointRobot(radius=np.float32(0.2).astype(float).round(1))
+    assert pf.DubinsCar() != pf.ReedsSheppCar()
+    assert len({pf.DubinsCar(), pf.DubinsCar(), pf.ReedsSheppCar()}) == 2
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        pf.PointRobot().radius = 1.0
+    assert isinstance(pf.PointRobot(radius=1).radius, float)
 
 
-def test_a_point_robot_moves_as_it_likes():
+def test_the_paper_s_car():
+    car = pf.DubinsCar(radius=0.2, turning_radius=0.3 / math.tan(0.5), wheelbase=0.3)
+    assert car.max_steering == pytest.approx(0.5)
+    assert not car.reverses
+    assert pf.ReedsSheppCar.reverses
+
+
+def test_a_point_moves_anywhere():
     path = np.random.default_rng(0).normal(size=(20, 2))
-    errors = pf.PointRobot().motion_errors(path)
-    assert errors.shape == (19,)
-    assert not errors.any()
+    assert not pf.PointRobot().motion_errors(path).any()
+    assert pf.PointRobot().motion_errors(path[:1]).shape == (0,)
+
+
+@settings(max_examples=200, deadline=None)
+@given(st.floats(-100, 100), st.floats(-100, 100), YAW, CURVATURE, st.booleans())
+def test_arcs_within_the_turning_radius_are_driven(x, y, yaw, curvature, back):
+    steps = np.full(12, -0.05 if back else 0.05)
+    path = drive((x, y, yaw), curvature, steps)
+    assert not pf.ReedsSheppCar(turning_radius=1.0).motion_errors(path).any()
+    assert pf.DubinsCar(turning_radius=1.0).motion_errors(path).all() == back
+    assert pf.DubinsCar(turning_radius=1.0).motion_errors(path).any() == back
+
+
+@settings(max_examples=200, deadline=None)
+@given(YAW, st.floats(1.02, 5.0), st.sampled_from([-1, 1]), st.sampled_from([-1, 1]))
+def test_tighter_arcs_are_not(yaw, curvature, side, direction):
+    path = drive((3.0, 4.0, yaw), side * curvature, np.full(8, direction * 0.1))
+    for car in CARS:
+        assert car(turning_radius=1.0).motion_errors(path).all()
+
+
+@settings(max_examples=200, deadline=None)
+@given(YAW, CURVATURE, st.floats(0.01, math.pi - 0.01), st.sampled_from([-1, 1]))
+def test_skids_are_not(yaw, curvature, slip, side):
+    path = drive((0.0, 0.0, yaw), curvature, np.full(8, 0.1))
+    path[:, 2] += side * slip
+    for car in CARS:
+        assert car(turning_radius=1.0).motion_errors(path).all()
+
+
+@settings(max_examples=300, deadline=None)
+@given(*[st.floats(-3, 3), st.floats(-3, 3), YAW] * 2, st.booleans())
+def test_the_core_s_curves_are_driven(x0, y0, yaw0, x1, y1, yaw1, reverse):
+    start, goal = np.array([x0, y0, yaw0]), np.array([x1, y1, yaw1])
+    poses = _core.curve_poses(start, goal, 0.5, reverse, 0.02)
+    robot = (pf.ReedsSheppCar if reverse else pf.DubinsCar)(turning_radius=0.5)
+    assert not robot.motion_errors(poses).any()
