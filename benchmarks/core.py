@@ -2,7 +2,7 @@
 
 Forests and mazes of 480 x 480 cells, point robot of 0.1 m. Every planner searches until its path is
 within `slack` of the any-angle shortest path: unguided; in the region that the shipped network
-proposes (proposal included in the time); and in the ideal region, squares of 1.6 m round the anchors
+proposes (time of the proposal included); and in the ideal region, 1.6 m squares round the anchors
 within 0.7 m of the shortest path. Lazy Theta* itself is the control.
 
     python benchmarks/core.py --problems 40 --output benchmarks/results/core.json

@@ -66,7 +66,8 @@ def test_the_time_limit_ends_the_search(maze, robot, planner):
 
 
 @pytest.mark.parametrize(
-    ("robot", "planner"), [*((POINT, name) for name in ANYTIME), (DUBINS, "RRTstar"), (DUBINS, "SST")]
+    ("robot", "planner"),
+    [*((POINT, name) for name in ANYTIME), (DUBINS, "RRTstar"), (DUBINS, "SST")],
 )
 def test_another_thread_cancels(maze, robot, planner):
     problem = random_problem(maze, robot, 1, apart=(4.0, 9.0))

@@ -158,7 +158,9 @@ def test_a_car_turns_round_to_the_same_place(open_room):
         check(problem, search(problem, planner, limits=FIRST_PATH, seed=1))
 
 
-@pytest.mark.parametrize("planner", ["RRTstar", "InformedRRTstar", "BITstar", "ABITstar", "AITstar"])
+@pytest.mark.parametrize(
+    "planner", ["RRTstar", "InformedRRTstar", "BITstar", "ABITstar", "AITstar"]
+)
 def test_an_optimal_path_ends_the_search(planner):
     grid = pf.OccupancyGrid(np.zeros((100, 100), bool), 0.05)
     problem = Problem(grid, POINT, (2.0, 2.0), (2.5, 2.2))
@@ -231,4 +233,5 @@ def test_a_seed_is_a_whole_number_of_32_bits(open_room, seed):
 
 @pytest.mark.parametrize("seed", [0, 1, 2**32 - 1, np.int64(5)])
 def test_every_seed_of_32_bits_works(open_room, seed):
-    assert search(random_problem(open_room, POINT, 1), "RRTConnect", limits=FIRST_PATH, seed=seed).solved
+    problem = random_problem(open_room, POINT, 1)
+    assert search(problem, "RRTConnect", limits=FIRST_PATH, seed=seed).solved

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -92,7 +94,7 @@ def problem_in(grid, robot, start=(1.0, 1.0, 1.57), goal=(5.0, 1.0, -1.57)):
 def way_round(grid, headings=False):
     """Anchors on the way from room to room."""
     corners = np.array([(1.0, 1.0), (1.0, 5.2), (5.0, 5.2), (5.0, 1.0)])
-    legs = [np.linspace(a, b, 12) for a, b in zip(corners[:-1], corners[1:], strict=True)]
+    legs = [np.linspace(a, b, 12) for a, b in itertools.pairwise(corners)]
     yaw = np.repeat([np.pi / 2, 0.0, -np.pi / 2], 12) + grid.origin[2]
     return region_of(grid.frame.to_world(np.concatenate(legs)), yaw if headings else None)
 

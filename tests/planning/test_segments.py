@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from fractions import Fraction
 
@@ -41,7 +42,7 @@ def touched_cells(p, q):
     p, q = [Fraction(v) for v in p], [Fraction(v) for v in q]
     in_x, in_y = crossings(p[0], q[0]), crossings(p[1], q[1])
     cuts = sorted({Fraction(0), Fraction(1), *in_x, *in_y})
-    middles = [(a + b) / 2 for a, b in zip(cuts[:-1], cuts[1:], strict=True)]
+    middles = [(a + b) / 2 for a, b in itertools.pairwise(cuts)]
     points = {t: [a + t * (b - a) for a, b in zip(p, q, strict=True)] for t in cuts + middles}
     cells = {t: (math.floor(y), math.floor(x)) for t, (x, y) in points.items()}
     touched = set(cells.values())
@@ -107,7 +108,7 @@ def test_equals_exact_arithmetic_and_the_path_check_in_general_position(blocked,
 @settings(max_examples=400, deadline=None)
 @given(grids(), st.lists(st.tuples(EIGHTHS, EIGHTHS), min_size=2, max_size=6))
 def test_the_path_check_accepts_what_the_core_accepts(blocked, points):
-    free = all(is_free(blocked, p, q) for p, q in zip(points[:-1], points[1:], strict=True))
+    free = all(is_free(blocked, p, q) for p, q in itertools.pairwise(points))
     if free:
         assert not touched_cells_blocked(blocked, np.array(points))
 
@@ -117,7 +118,7 @@ def test_the_path_check_accepts_what_the_core_accepts(blocked, points):
 def test_what_the_path_check_accepts_enters_no_blocked_cell(blocked, points):
     if touched_cells_blocked(blocked, np.array(points)):
         return
-    for p, q in zip(points[:-1], points[1:], strict=True):
+    for p, q in itertools.pairwise(points):
         for t in np.linspace(0, 1, 401):
             x, y = (1 - t) * np.array(p) + t * np.array(q)
             on_a_line = min(x % 1, 1 - x % 1, y % 1, 1 - y % 1) < 1e-6
@@ -166,7 +167,7 @@ def test_the_borders_of_the_grid():
 
 @pytest.mark.parametrize("resolution", [0.05, 0.1, 1 / 3, 7.0])
 def test_long_diagonals_meet_every_corner_exactly(resolution):
-    # 45 degrees through 4000 corners: the beside cells must be seen at the last one as at the first.
+    # 45 degrees through 4000 corners: at the last one too, the cells beside it must be seen.
     size = 4000
     for at in (1, size // 2, size - 1):
         blocked = np.zeros((size, size), bool)

@@ -158,9 +158,10 @@ def _spread_axis(
 ) -> NDArray[np.float32]:
     """`spread` along axis 0: (h, n) to (cells, n)."""
     pixels = (np.arange(cells) + 0.5) * resolution / scale.resolution
-    half = scale.patch / 2
-    first = np.ceil((pixels - scale.anchor_offset - half) / scale.stride).astype(np.int64)
-    last = np.floor((pixels - scale.anchor_offset + half) / scale.stride).astype(np.int64)
+    # Patches are half-open, as in `region_mask`: from `patch // 2` before the anchor.
+    offset = pixels - scale.anchor_offset + scale.patch // 2
+    first = np.floor((offset - scale.patch) / scale.stride).astype(np.int64) + 1
+    last = np.floor(offset / scale.stride).astype(np.int64)
     result = np.full((cells, values.shape[1]), -1.0, np.float32)
     for token in range(int((last - first).max()) + 1):
         index = first + token
