@@ -22,9 +22,7 @@ import planformer as pf
 
 START, GOAL = (1.5, 1.5), (22.5, 22.5)
 ROUND = [
-    (planner, guide)
-    for planner in ("RRTstar", "RRTConnect", "BITstar")
-    for guide in (None, "mpt")
+    (planner, guide) for planner in ("RRTstar", "RRTConnect", "BITstar") for guide in (None, "mpt")
 ]
 
 
