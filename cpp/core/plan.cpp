@@ -107,24 +107,28 @@ Answer plan_geometric(const Query& query) {
         return made;
     });
 
-    Monitor monitor(query.limits, started, *planner, *states, query.cancellation,
-                    query.interrupted);
-    planner->solve(monitor.condition());
-    Answer answer;
-    answer.length = std::numeric_limits<double>::infinity();
-    if (problem->hasExactSolution()) {
+    return run(query, started, *planner, *states, [&](Answer* answer) {
         const auto& path = *problem->getSolutionPath()->as<og::PathGeometric>();
-        answer.length = path.length();
-        answer.path = read_path(path, kArcStep * query.free_space.resolution);
-    }
-    answer.outcome = monitor.outcome(answer.length);
-    answer.seconds = seconds_since(started);
-    answer.vertices = count_vertices(*planner);
-    if (query.keep_tree) answer.tree = read_tree(*planner);
-    return answer;
+        answer->length = path.length();
+        answer->path = read_path(path, kArcStep * query.free_space.resolution);
+    });
 }
 
 }  // namespace
+
+Answer run(const Query& query, Clock::time_point started, ob::Planner& planner,
+           const StateCount& states, const std::function<void(Answer*)>& read_solution) {
+    Monitor monitor(query.limits, started, planner, states, query.cancellation, query.interrupted);
+    planner.solve(monitor.condition());
+    Answer answer;
+    answer.length = std::numeric_limits<double>::infinity();
+    if (planner.getProblemDefinition()->hasExactSolution()) read_solution(&answer);
+    answer.outcome = monitor.outcome(answer.length);
+    answer.seconds = seconds_since(started);
+    answer.vertices = count_vertices(planner);
+    if (query.keep_tree) answer.tree = read_tree(planner);
+    return answer;
+}
 
 Answer plan(const Query& query) {
     if (query.planner == "SST") return plan_sst(query);

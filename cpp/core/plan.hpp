@@ -55,4 +55,8 @@ struct Answer {
 /// The planner name has to be one of `planner_names`; start and goal have to be valid.
 Answer plan(const Query& query);
 
+/// Lets a planner search until a limit, and reports; `read_solution` fills in path and length.
+Answer run(const Query& query, Clock::time_point started, ompl::base::Planner& planner,
+           const StateCount& states, const std::function<void(Answer*)>& read_solution);
+
 }  // namespace planformer

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 
 #include "core/dubins.hpp"
@@ -235,20 +234,10 @@ Answer plan_sst(const Query& query) {
         made->setup();
         return made;
     });
-    Monitor monitor(query.limits, started, *planner, *states, query.cancellation,
-                    query.interrupted);
-    planner->solve(monitor.condition());
-    Answer answer;
-    answer.length = std::numeric_limits<double>::infinity();
-    if (problem->hasExactSolution()) {
+    return run(query, started, *planner, *states, [&](Answer* answer) {
         read_path(query, *problem->getGoal()->as<CarGoal>(),
-                  *problem->getSolutionPath()->as<oc::PathControl>(), &answer);
-    }
-    answer.outcome = monitor.outcome(answer.length);
-    answer.seconds = seconds_since(started);
-    answer.vertices = count_vertices(*planner);
-    if (query.keep_tree) answer.tree = read_tree(*planner);
-    return answer;
+                  *problem->getSolutionPath()->as<oc::PathControl>(), answer);
+    });
 }
 
 }  // namespace planformer
