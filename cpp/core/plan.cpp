@@ -127,6 +127,7 @@ Answer run(const Query& query, Clock::time_point started, ob::Planner& planner,
     answer.seconds = seconds_since(started);
     answer.vertices = count_vertices(planner);
     if (query.keep_tree) answer.tree = read_tree(planner);
+    planner.clear();  // the destructor of OMPL's LazyPRM* leaves its states
     return answer;
 }
 

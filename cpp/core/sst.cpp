@@ -34,6 +34,13 @@ constexpr double kFinalCurve = 2.0;
 /// One control may turn the car by at most this much, so that states alone tell the arc's length.
 constexpr double kMaxTurn = 3.0;  // [rad], below pi
 
+double turn_rate(const RobotModel& robot) { return robot.max_speed / robot.turning_radius; }
+
+/// The step of the propagation, shorter than usual for a car so fast that it would turn too far.
+double step_seconds(const RobotModel& robot) {
+    return std::min(kStepSeconds, kMaxTurn / turn_rate(robot));
+}
+
 /// The arc that a control drives from a pose.
 Curve drive(const Pose& from, const oc::Control* control, double seconds, double wheelbase) {
     const double* values = control->as<oc::RealVectorControlSpace::ControlType>()->values;
@@ -169,8 +176,9 @@ std::shared_ptr<oc::SpaceInformation> make_space_information(const Query& query,
     si->setMotionValidator(std::make_shared<GridMotionValidator>(si, query.free_space));
     si->setStatePropagator(
         std::make_shared<CarPropagator>(si.get(), query.free_space, query.robot.wheelbase));
-    si->setPropagationStepSize(kStepSeconds);
-    const double turn = query.robot.max_speed * kStepSeconds / query.robot.turning_radius;
+    const double step = step_seconds(query.robot);
+    si->setPropagationStepSize(step);
+    const double turn = turn_rate(query.robot) * step;
     const double steps = std::clamp(std::floor(kMaxTurn / turn), 1.0, double{kMaxSteps});
     si->setMinMaxControlDuration(1, static_cast<unsigned int>(steps));
     si->setup();
@@ -198,15 +206,16 @@ ob::ProblemDefinitionPtr make_problem(const Query& query,
 void read_path(const Query& query, const CarGoal& goal, oc::PathControl& path, Answer* answer) {
     const ob::StateSpace& space = *path.getSpaceInformation()->getStateSpace();
     const double spacing = kArcStep * query.free_space.resolution;
+    const double step = step_seconds(query.robot);
     answer->path.push_back(read_state(space, path.getState(0)));
     answer->length = 0.0;
     const auto controls = static_cast<unsigned int>(path.getControlCount());
     for (unsigned int i = 0; i < controls; ++i) {
-        const int steps = static_cast<int>(std::lround(path.getControlDuration(i) / kStepSeconds));
+        const int steps = static_cast<int>(std::lround(path.getControlDuration(i) / step));
         Pose pose = read_state(space, path.getState(i));
         // Step by step, as it was propagated, so that the very chords that were checked come back.
         for (int k = 0; k < steps; ++k) {
-            const Curve arc = drive(pose, path.getControl(i), kStepSeconds, query.robot.wheelbase);
+            const Curve arc = drive(pose, path.getControl(i), step, query.robot.wheelbase);
             answer->length += arc.length();
             pose = arc.end();
             append_motion(arc, pose, spacing, &answer->path);

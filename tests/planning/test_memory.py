@@ -46,3 +46,19 @@ def test_memory_stays_flat_over_many_plans(open_room, robot, planners, keep_tree
     before = resident_bytes()
     plan_often(plans)
     assert resident_bytes() - before < 20 * MEGABYTE
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="reads /proc")
+def test_the_states_of_lazy_prm_are_freed(forest):
+    """OMPL's destructor forgets them: 5 kB a plan here."""
+    problem = random_problem(forest, POINT, 2, apart=(4.0, 12.0))
+    limits = SearchLimits(60.0, max_vertices=60)
+
+    def plan_often(count):
+        for seed in range(count):
+            search(problem, "LazyPRMstar", limits=limits, seed=seed)
+
+    plan_often(100)
+    before = resident_bytes()
+    plan_often(800)
+    assert resident_bytes() - before < 2 * MEGABYTE

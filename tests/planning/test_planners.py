@@ -65,6 +65,19 @@ def test_paths_are_valid_on_many_maps(robot, planner, forest, maze):
     assert solved >= 3
 
 
+@pytest.mark.parametrize("speed", [0.2, 20.0])
+def test_sst_drives_slow_and_fast_cars(open_room, speed):
+    """A fast car turns more than half round in the usual step."""
+    robot = pf.DubinsCar(radius=0.1, turning_radius=0.4, max_speed=speed)
+    problem = random_problem(open_room, robot, 1)
+    first = search(problem, "SST", limits=FIRST_PATH, seed=1)
+    check(problem, first)
+    limits = SearchLimits(60.0, target_length=0.9 * first.length, max_vertices=2000)
+    result = search(problem, "SST", limits=limits, seed=1)
+    check(problem, result)
+    assert (result.length <= limits.target_length) == (result.status is PlanStatus.TARGET_REACHED)
+
+
 @pytest.mark.parametrize("robot", ROBOTS, ids=lambda robot: type(robot).__name__)
 def test_a_real_map_is_planned_on(real_maps, robot):
     grid = pf.load_map(real_maps / "depot.yaml")
