@@ -10,7 +10,6 @@ shard holds depends neither on the number of workers, nor on which other shards 
 
 from __future__ import annotations
 
-import signal
 import zlib
 from collections.abc import Generator, Iterable, Sequence
 from concurrent.futures import ProcessPoolExecutor
@@ -27,6 +26,7 @@ from planformer.data.recipe import MapRecipe, checksum
 from planformer.data.shards import MapPaths, Shard, write_shard
 from planformer.data.spec import MANIFEST, DatasetSpec, read_spec, write_spec
 from planformer.errors import InvalidDataset, InvalidParameter
+from planformer.processes import interrupts_left_to_parent
 
 _MapJob = tuple[DatasetSpec, str, int]
 
@@ -123,18 +123,13 @@ def _solve(jobs: Iterable[_MapJob], workers: int) -> Generator[MapPaths, None, N
     if workers == 1:
         yield from map(_solve_map, jobs)
         return
-    pool = ProcessPoolExecutor(
-        workers, mp_context=get_context("spawn"), initializer=_ignore_interrupts
-    )
+    with interrupts_left_to_parent():
+        pool = ProcessPoolExecutor(workers, mp_context=get_context("spawn"))
+        solved = pool.map(_solve_map, jobs)  # starts the workers
     try:
-        yield from pool.map(_solve_map, jobs)
+        yield from solved
     finally:
         pool.shutdown(cancel_futures=True)
-
-
-def _ignore_interrupts() -> None:
-    """Leave Ctrl-C, which reaches the whole process group, to the parent."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 def _solve_map(job: _MapJob) -> MapPaths:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import signal
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple, Protocol
 
@@ -24,6 +23,7 @@ from planformer.encoding import (
     network_map,
 )
 from planformer.errors import InvalidDataset
+from planformer.processes import interrupts_left_to_parent
 from planformer.training.augmentation import Example, augment
 from planformer.training.config import TrainConfig
 
@@ -145,19 +145,12 @@ def training_batches(
     samples = Samples(source, scale, config.seed if config.augment else None)
     order = ResumableBatches(len(source), config.batch_size, seed=config.seed, step=step)
     options: dict[str, Any] = {"prefetch_factor": 4} if config.workers else {}
-    return iter(
-        DataLoader(
-            samples,
-            batch_sampler=order,
-            num_workers=config.workers,
-            worker_init_fn=_leave_interrupts_to_parent,
-            generator=torch.Generator(),  # the loader must not draw from the training's
-            **options,
-        )
+    loader = DataLoader(
+        samples,
+        batch_sampler=order,
+        num_workers=config.workers,
+        generator=torch.Generator(),  # the loader must not draw from the training's
+        **options,
     )
-
-
-def _leave_interrupts_to_parent(worker: int) -> None:
-    """Ctrl-C reaches the whole process group; the parent ends its workers in its own time."""
-    del worker
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    with interrupts_left_to_parent():
+        return iter(loader)  # starts the workers
