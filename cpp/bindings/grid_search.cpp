@@ -3,12 +3,15 @@
 #include <nanobind/stl/optional.h>
 
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "bindings/bindings.hpp"
+#include "core/hybrid_astar.hpp"
 #include "core/lazy_theta.hpp"
 #include "core/wavefront.hpp"
 #include "core/widest_path.hpp"
@@ -32,6 +35,24 @@ NumpyArray<double> find_path(const BlockedArray& blocked, double resolution,
     }
     const std::size_t count = values.size() / 2;
     return to_numpy(std::move(values), {count, 2});
+}
+
+using PoseArray = nb::ndarray<const double, nb::shape<3>, nb::c_contig, nb::device::cpu>;
+
+NumpyArray<double> find_car_path(const BlockedArray& blocked, double resolution,
+                                 double turning_radius, bool reverse, const PoseArray& start,
+                                 const PoseArray& goal, std::size_t max_expansions) {
+    const FreeSpace space = free_space_of(blocked, resolution);
+    if (!(std::isfinite(turning_radius) && turning_radius > 0.0)) {
+        throw nb::value_error("turning_radius must be finite and > 0");
+    }
+    std::vector<Pose> poses;
+    {
+        const nb::gil_scoped_release unlocked;
+        poses = hybrid_astar(space, {turning_radius, reverse}, to_pose(start.data()),
+                             to_pose(goal.data()), max_expansions);
+    }
+    return to_numpy(poses);
 }
 
 NumpyArray<float> find_distances(const BlockedArray& blocked, std::int64_t row, std::int64_t col) {
@@ -82,6 +103,11 @@ void register_grid_search(nb::module_& m) {
           nb::arg("goal"),
           "Any-angle shortest path between two points, (N, 2) float64 in metres of the local\n"
           "frame, start and goal included; (0, 2) when no path joins them.");
+    m.def("hybrid_astar", &find_car_path, nb::arg("blocked"), nb::arg("resolution"),
+          nb::arg("turning_radius"), nb::arg("reverse"), nb::arg("start"), nb::arg("goal"),
+          nb::arg("max_expansions"),
+          "Short path of a car between two poses by Hybrid-A*, (N, 3) float64 poses of the local\n"
+          "frame, start and goal included; (0, 3) when none is found.");
     m.def("wavefront", &find_distances, nb::arg("blocked"), nb::arg("row"), nb::arg("col"),
           "Geodesic distance in cells from one cell to all, (h, w) float32, infinite where\n"
           "unreachable; 8-connected, diagonal steps don't cut corners.");

@@ -105,6 +105,15 @@ def lazy_theta(
     start: NDArray[np.float64],
     goal: NDArray[np.float64],
 ) -> NDArray[np.float64]: ...
+def hybrid_astar(
+    blocked: NDArray[np.bool_],
+    resolution: float,
+    turning_radius: float,
+    reverse: bool,
+    start: NDArray[np.float64],
+    goal: NDArray[np.float64],
+    max_expansions: int,
+) -> NDArray[np.float64]: ...
 def wavefront(blocked: NDArray[np.bool_], row: int, col: int) -> NDArray[np.float32]: ...
 def widest_path(
     blocked: NDArray[np.bool_],
