@@ -22,7 +22,8 @@ constexpr double kCellSide = 0.25;  ///< of a search cell, in turning radii
 constexpr double kStep = 0.4;       ///< driven between two poses, in turning radii; leaves the cell
 constexpr std::size_t kYawBins = 72;
 constexpr std::array<double, 5> kCurvatures = {-1.0, -0.5, 0.0, 0.5, 1.0};  ///< times 1 / radius
-constexpr double kSlack = 1.02;  ///< open poses that gain less are not worth expanding
+constexpr std::size_t kFewCells = 5'000;  ///< explored from the goal before the search begins
+constexpr double kSlack = 1.02;            ///< open poses that gain less are not worth expanding
 /// An 8-connected distance exceeds the straight one by at most 1 / 0.9239.
 constexpr double kOctileShare = 0.9238795325112867;
 constexpr std::int32_t kNone = -1;
@@ -30,11 +31,77 @@ constexpr std::int32_t kNone = -1;
 struct Node {
     Pose pose;
     double cost;          ///< length driven from the start [m]
-    double curvature;     ///< of the step from the parent [1/m]
-    double step;          ///< signed length of that step [m]
+    Segment step;         ///< from the parent
     std::int32_t parent;  ///< kNone for the start
     std::int32_t* best;   ///< the best node in this one's cell
 };
+
+/// The best node by cell of position and heading; a position's cells are made when first visited.
+class Cells {
+public:
+    Cells(const FreeSpace& space, double side)
+        : side_(side),
+          rows_(static_cast<int>(space.extent_y() / side) + 1),
+          cols_(static_cast<int>(space.extent_x() / side) + 1),
+          bins_(static_cast<std::size_t>(rows_) * cols_) {}
+
+    std::int32_t* best_at(const Pose& pose) {
+        const int row = std::clamp(static_cast<int>(pose.y / side_), 0, rows_ - 1);
+        const int col = std::clamp(static_cast<int>(pose.x / side_), 0, cols_ - 1);
+        auto& bins = bins_[static_cast<std::size_t>(row) * cols_ + col];
+        if (!bins) {
+            bins = std::make_unique<YawBins>();
+            bins->fill(kNone);
+        }
+        const double turn = (wrap_angle(pose.yaw) + kPi) / kTwoPi;
+        return &(*bins)[std::min(static_cast<std::size_t>(turn * kYawBins), kYawBins - 1)];
+    }
+
+private:
+    using YawBins = std::array<std::int32_t, kYawBins>;
+
+    double side_;  ///< [m]
+    int rows_;
+    int cols_;
+    std::vector<std::unique_ptr<YawBins>> bins_;
+};
+
+/// Calls visit(curve) for each step that the car can make from a pose.
+template <typename Visit>
+void for_each_step(const CarTurning& car, const Pose& from, Visit&& visit) {
+    for (const double share : kCurvatures) {
+        for (const double direction : {1.0, -1.0}) {
+            if (direction < 0.0 && !car.reverse) continue;
+            Curve curve(from);
+            curve.append({share / car.radius, direction * kStep * car.radius});
+            visit(curve);
+        }
+    }
+}
+
+/// Whether a short search from a pose exhausts all that the car can reach and stays far from a
+/// target.
+bool is_boxed_in(const FreeSpace& space, const CarTurning& car, const Pose& pose,
+                 const Pose& target) {
+    const double near = 2.0 * car.radius;
+    Cells cells(space, kCellSide * car.radius);
+    std::vector<Pose> reached{pose};
+    *cells.best_at(pose) = 0;
+    for (std::size_t i = 0; i < reached.size(); ++i) {
+        const Pose from = reached[i];
+        const bool is_near = std::hypot(from.x - target.x, from.y - target.y) < near;
+        if (is_near || reached.size() > kFewCells) return false;
+        for_each_step(car, from, [&](const Curve& curve) {
+            const Pose end = curve.end();
+            if (!space.is_free(end.x, end.y)) return;
+            std::int32_t* const best = cells.best_at(end);
+            if (*best != kNone || !curve_is_free(space, curve, end)) return;
+            *best = 0;
+            reached.push_back(end);
+        });
+    }
+    return true;
+}
 
 class Search {
 public:
@@ -42,14 +109,11 @@ public:
         : space_(space),
           car_(car),
           goal_(goal),
-          side_(kCellSide * car.radius),
-          rows_(static_cast<int>(space.extent_y() / side_) + 1),
-          cols_(static_cast<int>(space.extent_x() / side_) + 1),
-          cells_(static_cast<std::size_t>(rows_) * cols_),
+          cells_(space, kCellSide * car.radius),
           to_goal_(static_cast<std::size_t>(space.height) * space.width) {
         wavefront(space.blocked, space.height, space.width, grid_row(goal), grid_col(goal),
                   to_goal_.data());
-        open_pose({start, 0.0, 0.0, 0.0, kNone, best_in_cell_of(start)});
+        open_pose({start, 0.0, Segment{}, kNone, cells_.best_at(start)});
     }
 
     std::vector<Pose> run(std::size_t max_expansions) {
@@ -64,15 +128,12 @@ public:
     }
 
 private:
-    using YawBins = std::array<std::int32_t, kYawBins>;
     using Entry = std::pair<double, std::int32_t>;  ///< lower bound of the path's length, node
 
     void expand(std::int32_t index) {
         try_goal(index);
-        for (const double share : kCurvatures) {
-            drive(index, share / car_.radius, kStep * car_.radius);
-            if (car_.reverse) drive(index, share / car_.radius, -kStep * car_.radius);
-        }
+        const Pose from = nodes_[index].pose;
+        for_each_step(car_, from, [&](const Curve& curve) { drive(index, curve); });
     }
 
     /// Joins a pose with the goal by the shortest curve if that is free and an improvement.
@@ -86,17 +147,15 @@ private:
         }
     }
 
-    void drive(std::int32_t index, double curvature, double step) {
-        const Node& from = nodes_[index];
-        Curve curve(from.pose);
-        curve.append({curvature, step});
+    void drive(std::int32_t index, const Curve& curve) {
         const Pose end = curve.end();
         if (!space_.is_free(end.x, end.y)) return;
-        const Node next{end,   from.cost + std::abs(step), curvature, step,
-                        index, best_in_cell_of(end)};
-        const std::int32_t known = *next.best;
-        if (known != kNone && nodes_[known].cost <= next.cost) return;
-        if (curve_is_free(space_, curve, end)) open_pose(next);
+        const double cost = nodes_[index].cost + curve.length();
+        std::int32_t* const best = cells_.best_at(end);
+        if (*best != kNone && nodes_[*best].cost <= cost) return;
+        if (curve_is_free(space_, curve, end)) {
+            open_pose({end, cost, curve.segment(0), index, best});
+        }
     }
 
     void open_pose(const Node& node) {
@@ -135,7 +194,7 @@ private:
         for (auto i = std::next(chain.rbegin()); i != chain.rend(); ++i) {
             const Node& node = nodes_[*i];
             Curve curve(nodes_[node.parent].pose);
-            curve.append({node.curvature, node.step});
+            curve.append(node.step);
             append_motion(curve, node.pose, spacing, &poses);
         }
         append_motion(curve_to_goal(nodes_[best_end_].pose), goal_, spacing, &poses);
@@ -149,26 +208,11 @@ private:
         return std::clamp(static_cast<int>(pose.x / space_.resolution), 0, space_.width - 1);
     }
 
-    std::int32_t* best_in_cell_of(const Pose& pose) {
-        const int row = std::clamp(static_cast<int>(pose.y / side_), 0, rows_ - 1);
-        const int col = std::clamp(static_cast<int>(pose.x / side_), 0, cols_ - 1);
-        auto& bins = cells_[static_cast<std::size_t>(row) * cols_ + col];
-        if (!bins) {
-            bins = std::make_unique<YawBins>();
-            bins->fill(kNone);
-        }
-        const double turn = (wrap_angle(pose.yaw) + kPi) / kTwoPi;
-        return &(*bins)[std::min(static_cast<std::size_t>(turn * kYawBins), kYawBins - 1)];
-    }
-
     const FreeSpace& space_;
     const CarTurning car_;
     const Pose goal_;
-    const double side_;  ///< of a search cell [m]
-    const int rows_;
-    const int cols_;
-    std::vector<std::unique_ptr<YawBins>> cells_;  ///< by row and column, made when first visited
-    std::vector<float> to_goal_;                   ///< 8-connected distance [grid cells]
+    Cells cells_;
+    std::vector<float> to_goal_;  ///< 8-connected distance [grid cells]
     std::vector<Node> nodes_;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> open_;
     double best_length_ = std::numeric_limits<double>::infinity();
@@ -180,6 +224,10 @@ private:
 std::vector<Pose> hybrid_astar(const FreeSpace& space, const CarTurning& car, const Pose& start,
                                const Pose& goal, std::size_t max_expansions) {
     if (!space.is_free(start.x, start.y) || !space.is_free(goal.x, goal.y)) return {};
+    // Seen from the goal backwards, an unreachable one is often plain at once; the search itself
+    // would have to exhaust all that the start can reach.
+    const Pose backwards{goal.x, goal.y, goal.yaw + kPi};
+    if (is_boxed_in(space, car, backwards, start)) return {};
     return Search(space, car, start, goal).run(max_expansions);
 }
 
