@@ -64,7 +64,43 @@ def test_generate_completes_only_its_own_data_set(cli, tmp_path):
     assert cli("generate", tmp_path / "data", *options).exit_code == 0
     other = cli("generate", tmp_path / "data", *options, "--seed", 5)
     assert other.exit_code == 2
-    assert "other settings" in other.output
+    assert "other settings (seed 0, not 5)" in other.output
+
+
+def test_generate_for_a_car_on_maps_of_ones_own(cli, room_file, tmp_path):
+    (tmp_path / "maps").mkdir()
+    for file in (room_file, room_file.with_suffix(".pgm")):
+        file.rename(tmp_path / "maps" / file.name)
+    options = ("--robot", "dubins", "--radius", 0.05, "--turning-radius", 0.2, "--workers", 1)
+    distances = ("--min-distance", 0.5, "--max-distance", 2, "--paths-per-map", 3)
+    arguments = (tmp_path / "data", "--maps-from", tmp_path / "maps", *options, *distances)
+    result = cli("generate", *arguments)
+    assert result.exit_code == 0, result.output
+    record = json.loads(cli("generate", *arguments, "--json").stdout)
+    assert (record["kinds"], record["turning_radius"]) == ([], 0.2)
+    assert [name for name, _ in record["user_maps"]] == ["room.yaml"]
+
+
+def test_generate_refuses_what_it_cannot_do(cli, tmp_path):
+    for options, reason in (
+        ((), "say how many maps"),
+        (("--preset", "paper", "--radius", "0.3"), "fixes robot_radius"),
+        (("--preset", "forest"), "choose from paper, paper-dubins"),
+        (("--maps", "1", "--kinds", "swamp"), "forest, indoor, maze"),
+        (("--maps", "1", "--expert", "oracle"), "lazy-theta"),
+        (("--maps-from", tmp_path / "none"), "holds no map"),
+    ):
+        result = cli("generate", tmp_path / "data", *options)
+        assert result.exit_code == 2
+        assert reason in " ".join(result.output.split())
+    assert not (tmp_path / "data").exists()
+
+
+def test_generate_takes_a_preset_and_less_of_it(cli, tmp_path):
+    options = ("--preset", "paper", "--maps", 1, "--paths-per-map", 2, "--workers", 1, "--json")
+    record = json.loads(cli("generate", tmp_path / "data", *options).stdout)
+    assert record["kinds"] == ["forest", "maze"]
+    assert (record["maps"], record["paths_per_map"], record["width"]) == (1, 2, 24.0)
 
 
 def test_training_to_guidance(cli, shell, tmp_path):

@@ -1,12 +1,15 @@
 from __future__ import annotations
 
+from itertools import islice
+
 import numpy as np
 import pytest
 
-from planformer.data.problems import draw_problems, largest_component
+from planformer.data.problems import draw_problems, largest_component, random_problems
 from planformer.errors import InvalidParameter
 from planformer.maps.grid import OccupancyGrid
 from planformer.maps.maze import generate_maze
+from planformer.robots import DubinsCar, PointRobot
 
 
 def draw(grid, count=200, min_distance=1.0, seed=0):
@@ -47,6 +50,34 @@ def test_the_seed_decides():
     assert not np.array_equal(draw(grid, seed=3), draw(grid, seed=4))
 
 
+def random(grid, robot, *, seed=0, count=200, max_distance=4.0):
+    rng = np.random.default_rng(seed)
+    problems = random_problems(grid, robot, min_distance=1.0, max_distance=max_distance, rng=rng)
+    return list(islice(problems, count))
+
+
+def test_problems_of_a_car_have_all_headings_and_a_distance_in_range():
+    occupied = generate_maze(1, width=8.0, height=8.0).occupied
+    grid = OccupancyGrid(occupied, 0.05, origin=(-3.0, 2.0, 0.7))
+    problems = random(grid, DubinsCar(0.2, 0.5))
+    states = np.array([(problem.start, problem.goal) for problem in problems])
+    distance = np.hypot(*(states[:, 0] - states[:, 1])[:, :2].T)
+    assert distance.min() >= 1.0
+    assert distance.max() <= 4.0
+    counts, _ = np.histogram(states[..., 2], bins=8, range=(-np.pi, np.pi))
+    # Chi-square with 7 degrees of freedom, p = 1e-5; all headings are in the range.
+    assert counts.sum() == 400
+    assert ((counts - 50) ** 2 / 50).sum() < 35.0
+
+
+def test_problems_follow_the_seed_and_the_robot():
+    grid = generate_maze(1, width=8.0, height=8.0)
+    point, again = (random(grid, PointRobot(0.1), seed=3, count=60) for _ in range(2))
+    assert [(p.start, p.goal) for p in point] == [(p.start, p.goal) for p in again]
+    assert len({p.start for p in point}) == 60
+    assert {len(p.start) for p in point} == {2}
+
+
 def test_components_join_by_sides_only():
     free = np.array([[1, 1, 0], [0, 0, 1], [0, 0, 1], [0, 0, 1]], bool)
     assert largest_component(free).tolist() == [[1, 2], [2, 2], [3, 2]]
@@ -58,3 +89,5 @@ def test_an_impossible_map_or_distance_is_an_error():
         draw(OccupancyGrid(np.ones((20, 20), bool), 0.05))
     with pytest.raises(InvalidParameter, match="choose a smaller min_distance"):
         draw(OccupancyGrid(np.zeros((20, 20), bool), 0.05), min_distance=1.5)
+    with pytest.raises(InvalidParameter, match=r"are 1\.0 to 1\.0001 m apart"):
+        random(OccupancyGrid(np.zeros((20, 20), bool), 0.05), PointRobot(), max_distance=1.0001)

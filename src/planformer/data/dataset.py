@@ -1,4 +1,4 @@
-"""Reading a data set of expert paths, with NumPy alone."""
+"""Reading a data set of expert paths, with NumPy and pyarrow alone."""
 
 from __future__ import annotations
 
@@ -8,21 +8,23 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from planformer.data.arcs import driven_poses
 from planformer.data.inflation import inflate
-from planformer.data.recipe import MapRecipe, checksum
+from planformer.data.recipe import AnyMap, MapRecipe, StoredMap, checksum
 from planformer.data.shards import Shard, read_shard
 from planformer.data.spec import DatasetSpec, read_spec
 from planformer.errors import InvalidDataset
 
 
 class PathProblem(NamedTuple):
-    """A planning problem and the expert's solution.
+    """A planning problem and the expert's solution, in the map's local frame.
 
     Attributes:
         map_id: Index of the map in `PathDataset.recipes`.
-        start: (2,) float64, x and y in metres, world frame.
-        goal: (2,) float64.
-        path: (N, 2) float64 vertices from start to goal, N >= 2.
+        start: (2,) float64 x and y in metres, for a car (3,) with yaw in rad.
+        goal: As the start.
+        path: (N, 2) or (N, 3) float64 vertices from start to goal, N >= 2; a car's poses are at
+            most half a cell apart on arcs, so that it is a polyline for all purposes.
     """
 
     map_id: int
@@ -43,16 +45,19 @@ class PathDataset:
 
     Attributes:
         spec: The settings that the data set was made with.
-        recipes: The maps.
+        recipes: The maps. Each has a `kind`, a `resolution` in metres and a `shape` (H, W), which
+            differ from map to map where users' own maps are among them.
         map_ids: (P,) int64, the map of each problem, read-only.
+        unsolved: (M,) int64, problems drawn on each map that the expert found no path for.
 
     Raises:
         InvalidDataset: The folder is not a data set, or a shard is missing or damaged.
     """
 
     spec: DatasetSpec
-    recipes: tuple[MapRecipe, ...]
+    recipes: tuple[AnyMap, ...]
     map_ids: NDArray[np.int64]
+    unsolved: NDArray[np.int64]
 
     def __init__(self, folder: str | Path) -> None:
         folder = Path(folder)
@@ -60,12 +65,13 @@ class PathDataset:
         shards = _read_shards(folder, self.spec)
         self.recipes = tuple(recipe for shard in shards for recipe in shard.recipes)
         self._checksums = np.concatenate([shard.checksums for shard in shards])
+        self.unsolved = np.concatenate([shard.unsolved for shard in shards]).astype(np.int64)
         self.map_ids = _joined([s.map_index for s in shards], [len(s.recipes) for s in shards])
         firsts = [shard.offsets[:-1] for shard in shards]
         self._vertices = np.concatenate([shard.vertices for shard in shards])
         self._first = _joined(firsts, [len(shard.vertices) for shard in shards])
         self._after_last = np.append(self._first[1:], len(self._vertices))
-        for array in (self.map_ids, self._vertices):
+        for array in (self.map_ids, self.unsolved, self._vertices):
             array.setflags(write=False)
         self._packed: dict[int, NDArray[np.uint8]] = {}
 
@@ -76,7 +82,12 @@ class PathDataset:
         if not -len(self) <= index < len(self):
             raise IndexError(f"problem {index} of a data set of {len(self)}")
         path = self._vertices[self._first[index] : self._after_last[index]]
-        return PathProblem(int(self.map_ids[index]), path[0], path[-1], path)
+        map_id = int(self.map_ids[index])
+        start, goal = path[0], path[-1]
+        if path.shape[1] == 3:
+            path = driven_poses(path, 0.5 * self.recipes[map_id].resolution)
+            path.setflags(write=False)
+        return PathProblem(map_id, start, goal, path)
 
     def blocked_map(self, map_id: int) -> NDArray[np.bool_]:
         """The map inflated by the robot's radius: True where the robot may not be.
@@ -90,15 +101,14 @@ class PathDataset:
         Raises:
             InvalidDataset: The generator no longer makes the map that the paths were found on.
         """
-        recipe = self.recipes[map_id]
         if map_id not in self._packed:
             self._packed[map_id] = np.packbits(self._make_blocked(map_id), axis=1)
-        width = round(recipe.width / recipe.resolution)
+        width = self.recipes[map_id].shape[1]
         return np.unpackbits(self._packed[map_id], axis=1, count=width).view(np.bool_)
 
     def _make_blocked(self, map_id: int) -> NDArray[np.bool_]:
         recipe = self.recipes[map_id]
-        occupied = recipe.generate().occupied
+        occupied = recipe.grid().occupied
         if checksum(occupied) != self._checksums[map_id]:
             raise InvalidDataset(
                 f"the generator makes another map of {recipe} than when the data set was made; "
@@ -121,17 +131,35 @@ def _read_shards(folder: Path, spec: DatasetSpec) -> list[Shard]:
 def _read_fitting(path: Path, spec: DatasetSpec, kind: str, indices: range) -> Shard:
     """Read a shard and check that it belongs to the data set."""
     shard = read_shard(path)
-    first = shard.recipes[0]
-    found = (first.kind, first.width, first.height, first.resolution, shard.robot_radius)
-    expected = (kind, spec.size, spec.size, spec.resolution, spec.robot_radius)
-    maps, paths = len(shard.recipes), len(shard.map_index)
-    if found != expected or maps != len(indices) or paths != maps * spec.paths_per_map:
-        raise InvalidDataset(
-            f"the shard {path} is of another data set: {paths} paths on {maps} maps with (kind, "
-            f"width, height, resolution, robot radius) {found}; expected "
-            f"{len(indices) * spec.paths_per_map} on {len(indices)} with {expected}"
-        )
+    paths = np.bincount(shard.map_index, minlength=len(shard.recipes))
+    for what, found, expected in (
+        ("kind of map", shard.recipes[0].kind, kind),
+        ("number of maps", len(shard.recipes), len(indices)),
+        ("robot", shard.robot, spec.make_robot()),
+        ("numbers of paths a map", set(paths.tolist()), {spec.paths_per_map}),
+        ("maps", _identities(shard), _expected_identities(spec, kind, indices)),
+    ):
+        if found != expected:
+            raise InvalidDataset(
+                f"the shard {path} is of another data set: {what} {found}; expected {expected}"
+            )
     return shard
+
+
+def _identities(shard: Shard) -> set[tuple[object, ...]]:
+    """What the settings say about the maps: sizes of generated ones, names of users' own."""
+    return {
+        (recipe.width, recipe.height, recipe.resolution)
+        if isinstance(recipe, MapRecipe)
+        else (recipe.name, int(check))
+        for recipe, check in zip(shard.recipes, shard.checksums, strict=True)
+    }
+
+
+def _expected_identities(spec: DatasetSpec, kind: str, indices: range) -> set[tuple[object, ...]]:
+    if kind == StoredMap.kind:
+        return set(spec.user_maps[indices.start : indices.stop])
+    return {(spec.width, spec.height, spec.resolution)}
 
 
 def _joined(indices: list[NDArray[np.int64]], counts: list[int]) -> NDArray[np.int64]:

@@ -1,8 +1,7 @@
-"""Generation of data sets: expert paths on generated maps, in parallel and resumable.
+"""Generation of data sets: expert paths on maps, in parallel and resumable.
 
 A data set is a folder with its settings in ``dataset.json`` (see `planformer.data.spec`) and its
-paths in shards, ``forest-00000.npz`` and so on (see `planformer.data.shards` for their arrays).
-Maps are stored as generator name, seed and size, never as cells.
+maps and paths in shards, ``forest-00000.parquet`` and so on (see `planformer.data.shards`).
 
 Map number i of a kind draws from ``SeedSequence(seed, spawn_key=(crc32(kind), i))``, so what a
 shard holds depends neither on the number of workers, nor on which other shards are made.
@@ -11,144 +10,168 @@ shard holds depends neither on the number of workers, nor on which other shards 
 from __future__ import annotations
 
 import zlib
-from collections.abc import Generator, Iterable, Sequence
-from concurrent.futures import ProcessPoolExecutor
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import closing
-from multiprocessing import get_context
+from itertools import islice
 from pathlib import Path
+from typing import Any, NamedTuple
 
 import numpy as np
-from rich.progress import Progress
+from numpy.typing import NDArray
+from rich.console import Console
+from rich.progress import MofNCompleteColumn, Progress
 
-from planformer.data.experts import shortest_path
-from planformer.data.problems import draw_problems
-from planformer.data.recipe import MapRecipe, checksum
+from planformer.data.arcs import arc_ends, driven_poses
+from planformer.data.folder import claimed, writing
+from planformer.data.parallel import solved_in_order
+from planformer.data.problems import random_problems
+from planformer.data.recipe import USER_KIND, AnyMap, MapRecipe, StoredMap, checksum
+from planformer.data.settings import make_expert, settled
 from planformer.data.shards import MapPaths, Shard, write_shard
-from planformer.data.spec import MANIFEST, DatasetSpec, read_spec, write_spec
-from planformer.errors import InvalidDataset, InvalidParameter
-from planformer.processes import interrupts_left_to_parent
+from planformer.data.spec import DatasetSpec
+from planformer.errors import InvalidParameter
+from planformer.planning import Problem, path_is_valid
 
-_MapJob = tuple[DatasetSpec, str, int]
+_DRAWS_A_PATH = 20
+"""Problems drawn for each path at most; an expert that solves fewer does not fit the maps."""
+_LARGEST_SEED = 2**31
+
+
+class _MapJob(NamedTuple):
+    """What a worker needs to know of a map; `own` is given for a user's."""
+
+    spec: DatasetSpec
+    kind: str
+    number: int
+    own: StoredMap | None
 
 
 def generate_dataset(
     folder: str | Path,
     *,
-    kinds: Sequence[str] = ("forest", "maze"),
-    maps: int,
-    paths_per_map: int = 25,
-    seed: int = 0,
-    robot_radius: float = 0.1,
-    min_distance: float = 3.0,
-    maps_per_shard: int = 50,
+    preset: str | None = None,
+    maps_from: str | Path | None = None,
     workers: int = 2,
+    ray_address: str | None = None,
     show_progress: bool = True,
+    **settings: Any,
 ) -> DatasetSpec:
     """Generate a data set of expert paths, or complete one that was interrupted.
 
     Shards that exist are kept; the others are written whole or not at all, also when interrupted
-    (Ctrl-C). The content depends on the settings alone, not on the number of workers. Maps are
-    24 m x 24 m at 0.05 m. With more than one worker, a script that calls this needs the usual
-    ``if __name__ == "__main__":`` of multiprocessing.
+    or killed. The content depends on the settings alone, not on the number of workers or where
+    they run, unless the expert has a time limit. With more than one worker, a script that calls
+    this needs the usual ``if __name__ == "__main__":`` of multiprocessing.
 
     Args:
         folder: The data set's folder; created where it does not exist.
-        kinds: Kinds of maps, names in `planformer.data.recipe.GENERATORS`.
-        maps: Number of maps of each kind.
-        paths_per_map: Number of problems on each map.
-        seed: Seed of the data set, >= 0.
-        robot_radius: Radius of the robot in metres.
-        min_distance: Least straight-line distance from start to goal in metres.
-        maps_per_shard: Number of maps in a file.
+        preset: A name in `planformer.data.settings.PRESETS`.
+        maps_from: Folder of your own maps; every file in it that `load_map` reads is used.
         workers: Number of processes; 1 works in this one.
+        ray_address: Ray cluster to work on instead, see `planformer.data.parallel`.
         show_progress: Whether to show a progress bar.
+        **settings: Attributes of `planformer.data.spec.DatasetSpec` but for `user_maps`. Without
+            a preset, `maps` is needed for generated maps; by default these are forests and mazes,
+            none beside maps of your own. Robot, distances and expert have the paper's values.
 
     Returns:
         The data set's settings.
 
     Raises:
-        InvalidParameter: A value is out of range.
-        InvalidDataset: The folder holds a data set with other settings, or something else.
+        InvalidParameter: A value is out of range, or the expert solves hardly any problem.
+        InvalidRobot: A dimension of the robot is out of range.
+        InvalidMap: One of your own maps cannot be read, or the robot has no room on it.
+        InvalidDataset: The folder holds a data set with other settings, or something else, or
+            cannot be written.
+        MissingExtra: Ray is asked for and not installed.
     """
     if workers < 1:
         raise InvalidParameter(f"workers must be >= 1; got {workers}")
-    spec = DatasetSpec(
-        kinds=tuple(kinds),
-        maps=maps,
-        paths_per_map=paths_per_map,
-        seed=seed,
-        robot_radius=robot_radius,
-        min_distance=min_distance,
-        maps_per_shard=maps_per_shard,
-    )
-    _claim(Path(folder), spec)
-    _complete(Path(folder), spec, workers=workers, show_progress=show_progress)
+    folder, own_folder = Path(folder), None if maps_from is None else Path(maps_from)
+    spec, own = settled(settings, preset=preset, maps_from=own_folder)
+    make_expert(spec)  # an unknown name ends it here
+    with claimed(folder, spec) as missing:
+        jobs = list(_jobs(spec, own, missing))
+        solved = solved_in_order(_solve_map, jobs, workers=workers, ray_address=ray_address)
+        with closing(solved), _progress_bar(show_progress) as progress:
+            _fill(folder, spec, missing, _shown(solved, progress, len(jobs)))
     return spec
 
 
-def _claim(folder: Path, spec: DatasetSpec) -> None:
-    """Make the folder this data set's, or check that it is."""
-    if folder.exists() and not folder.is_dir():
-        raise InvalidDataset(f"{folder} is a file; choose another folder")
-    folder.mkdir(parents=True, exist_ok=True)
-    if (folder / MANIFEST).exists():
-        found = read_spec(folder)
-        if found != spec:
-            raise InvalidDataset(
-                f"{folder} holds a data set with other settings: {found}; to complete it, ask "
-                f"for these, and for {spec} choose another folder"
-            )
-    elif any(folder.iterdir()):
-        raise InvalidDataset(f"{folder} is neither empty nor a data set; choose another folder")
-    else:
-        write_spec(folder, spec)
+def _fill(folder: Path, spec: DatasetSpec, shards: Sequence[str], maps: Iterable[MapPaths]) -> None:
+    """Write shards from their maps."""
+    contents, solved = spec.shards(), iter(maps)
+    for name in shards:
+        shard = Shard.from_maps(list(islice(solved, len(contents[name][1]))), spec.make_robot())
+        with writing(folder / name):
+            write_shard(folder / name, shard)
 
 
-def _complete(folder: Path, spec: DatasetSpec, *, workers: int, show_progress: bool) -> None:
-    """Make the shards that the folder lacks."""
-    missing = {name: at for name, at in spec.shards().items() if not (folder / name).exists()}
-    jobs = [(spec, kind, index) for kind, indices in missing.values() for index in indices]
-    with Progress(disable=not show_progress) as progress, closing(_solve(jobs, workers)) as solved:
-        task = progress.add_task("Generating maps", total=len(jobs))
-        for name, (_, indices) in missing.items():
-            maps = []
-            for _ in indices:
-                maps.append(next(solved))
-                progress.advance(task)
-            write_shard(folder / name, Shard.from_maps(maps, spec.robot_radius))
+def _progress_bar(shown: bool) -> Progress:
+    columns = (*Progress.get_default_columns(), MofNCompleteColumn())
+    return Progress(*columns, disable=not shown, console=Console(stderr=True))
 
 
-def _solve(jobs: Iterable[_MapJob], workers: int) -> Generator[MapPaths, None, None]:
-    """Solve the maps in order."""
-    if workers == 1:
-        yield from map(_solve_map, jobs)
-        return
-    with interrupts_left_to_parent():
-        pool = ProcessPoolExecutor(workers, mp_context=get_context("spawn"))
-        solved = pool.map(_solve_map, jobs)  # starts the workers
-    try:
-        yield from solved
-    finally:
-        pool.shutdown(cancel_futures=True)
+def _shown(maps: Iterable[MapPaths], progress: Progress, total: int) -> Iterator[MapPaths]:
+    """The maps, each counted as it comes."""
+    task = progress.add_task("Generating maps", total=total)
+    for of_map in maps:
+        progress.advance(task)
+        yield of_map
+
+
+def _jobs(spec: DatasetSpec, own: Sequence[StoredMap], shards: Sequence[str]) -> Iterator[_MapJob]:
+    contents = spec.shards()
+    for kind, indices in (contents[name] for name in shards):
+        for index in indices:
+            yield _MapJob(spec, kind, index, own[index] if kind == USER_KIND else None)
 
 
 def _solve_map(job: _MapJob) -> MapPaths:
     """Make a map, draw its problems and solve them."""
-    spec, kind, index = job
-    seeds = np.random.SeedSequence(spec.seed, spawn_key=(zlib.crc32(kind.encode()), index))
-    map_seed, problem_seed = (int(s) for s in seeds.generate_state(2, np.uint64))
-    recipe = MapRecipe(kind, map_seed, spec.size, spec.size, spec.resolution)
-    grid = recipe.generate()
-    starts, goals = draw_problems(
+    spec, kind, number, own = job
+    seeds = np.random.SeedSequence(spec.seed, spawn_key=(zlib.crc32(kind.encode()), number))
+    map_seed, problem_seed, expert_seed = (int(s) for s in seeds.generate_state(3, np.uint64))
+    recipe = own or MapRecipe(kind, map_seed, spec.width, spec.height, spec.resolution)
+    try:
+        return _paths_on(recipe, spec, problem_seed, expert_seed)
+    except InvalidParameter as error:
+        name = f"your map {own.name}" if own else f"{kind} number {number}"
+        raise InvalidParameter(f"{name}: {error}") from error
+
+
+def _paths_on(recipe: AnyMap, spec: DatasetSpec, problem_seed: int, expert_seed: int) -> MapPaths:
+    grid, robot = recipe.grid(), spec.make_robot()
+    expert = make_expert(spec)
+    seeds = np.random.default_rng(expert_seed)
+    problems = random_problems(
         grid,
-        spec.robot_radius,
-        spec.paths_per_map,
+        robot,
         min_distance=spec.min_distance,
+        max_distance=spec.max_distance,
         rng=np.random.default_rng(problem_seed),
     )
-    paths = []
-    for start, goal in zip(starts, goals, strict=True):
-        path = shortest_path(grid, spec.robot_radius, start, goal)
-        assert path is not None  # start and goal lie in one component
-        paths.append(path)
-    return MapPaths(recipe, checksum(grid.occupied), paths)
+    paths: list[NDArray[np.float64]] = []
+    for drawn, problem in enumerate(islice(problems, _DRAWS_A_PATH * spec.paths_per_map), 1):
+        path = expert.solve(problem, int(seeds.integers(_LARGEST_SEED)))
+        stored = None if path is None else _stored(path, problem)
+        if stored is not None:
+            paths.append(stored)
+        if len(paths) == spec.paths_per_map:
+            return MapPaths(recipe, checksum(grid.occupied), paths, drawn - len(paths))
+    raise InvalidParameter(
+        f"the expert {spec.expert} solved {len(paths)} of "
+        f"{_DRAWS_A_PATH * spec.paths_per_map} problems, too few for "
+        f"{spec.paths_per_map} paths; choose another expert, a smaller robot or other distances"
+    )
+
+
+def _stored(path: NDArray[np.float64], problem: Problem) -> NDArray[np.float64] | None:
+    """What is kept of an expert's path; None where no valid path comes of it again."""
+    grid, robot = problem.grid, problem.robot
+    if robot.state_dimension == 2:
+        return path if path_is_valid(grid, robot, path) else None
+    for kept in (arc_ends(path), path):
+        if path_is_valid(grid, robot, driven_poses(kept, 0.5 * grid.resolution)):
+            return kept
+    return None

@@ -1,15 +1,16 @@
-"""Generated maps by name: a data set stores how its maps are made, never their cells."""
+"""The maps of a data set: how a generated one is made again, and how a user's own is kept."""
 
 from __future__ import annotations
 
 import zlib
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import ClassVar, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from planformer.errors import InvalidParameter
+from planformer.errors import InvalidDataset, InvalidParameter
 from planformer.maps.forest import generate_forest
 from planformer.maps.grid import OccupancyGrid
 from planformer.maps.indoor import generate_indoor
@@ -21,6 +22,9 @@ GENERATORS: dict[str, Callable[..., OccupancyGrid]] = {
     "maze": generate_maze,
 }
 """The map generators by the name of the kind of map that they make."""
+
+USER_KIND = "user"
+"""The kind of the maps that users bring along."""
 
 
 @dataclass(frozen=True)
@@ -50,8 +54,13 @@ class MapRecipe:
                 f"unknown kind of map {self.kind!r}; choose from {', '.join(sorted(GENERATORS))}"
             )
 
-    def generate(self) -> OccupancyGrid:
-        """Make the map, with its origin at (0, 0).
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns, (H, W)."""
+        return round(self.height / self.resolution), round(self.width / self.resolution)
+
+    def grid(self) -> OccupancyGrid:
+        """Generate the map, with its origin at (0, 0).
 
         Raises:
             InvalidParameter: The generator cannot make a map of this seed and size.
@@ -59,6 +68,59 @@ class MapRecipe:
         return GENERATORS[self.kind](
             self.seed, width=self.width, height=self.height, resolution=self.resolution
         )
+
+
+@dataclass(frozen=True)
+class StoredMap:
+    """A user's map with its cells, one bit each.
+
+    Attributes:
+        name: Its file, relative to the folder that the maps were read from.
+        shape: Rows and columns, (H, W).
+        resolution: Side of a cell in metres.
+        packed: `numpy.packbits` of the occupied cells, row after row from the lowest y.
+
+    Raises:
+        InvalidDataset: The number of bytes does not fit the shape.
+    """
+
+    kind: ClassVar[str] = USER_KIND
+
+    name: str
+    shape: tuple[int, int]
+    resolution: float
+    packed: bytes
+
+    def __post_init__(self) -> None:
+        rows, columns = self.shape
+        if len(self.packed) != -(-rows * columns // 8):
+            raise InvalidDataset(
+                f"the map {self.name} of {columns} x {rows} cells has {len(self.packed)} bytes"
+            )
+
+    @classmethod
+    def of(cls, name: str, grid: OccupancyGrid) -> StoredMap:
+        """Pack a map; where it lies in the world is left out."""
+        return cls(name, grid.shape, grid.resolution, np.packbits(grid.occupied).tobytes())
+
+    @property
+    def width(self) -> float:
+        """Extent along x in metres."""
+        return self.shape[1] * self.resolution
+
+    @property
+    def height(self) -> float:
+        """Extent along y in metres."""
+        return self.shape[0] * self.resolution
+
+    def grid(self) -> OccupancyGrid:
+        """Unpack the map, with its origin at (0, 0)."""
+        rows, columns = self.shape
+        cells = np.unpackbits(np.frombuffer(self.packed, np.uint8), count=rows * columns)
+        return OccupancyGrid(cells.reshape(self.shape).view(np.bool_), self.resolution)
+
+
+AnyMap: TypeAlias = MapRecipe | StoredMap
 
 
 def checksum(occupied: NDArray[np.bool_]) -> int:
