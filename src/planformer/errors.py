@@ -12,8 +12,10 @@
     │   ├── UnknownPlanner      lists the valid names
     │   └── UnknownGuide        lists the valid names
     ├── InvalidDataset          a data set that is damaged or does not fit
+    ├── InvalidResults          measurements that are damaged or do not fit the request
     ├── InvalidWeights          a weights file or card that cannot be used
     │   └── WeightsMismatch     weights that do not fit the problem or the card
+    ├── TrainingDiverged        a loss that is no number; ``.step`` and ``.learning_rate`` say where
     └── MissingExtra            an optional dependency, with its install command
 
 The problem errors mirror the exceptions of Nav2's planner server, so that a ROS wrapper can map
@@ -83,12 +85,29 @@ class InvalidDataset(PlanformerError, ValueError):
     """A data set that is damaged or does not fit the request."""
 
 
+class InvalidResults(PlanformerError, ValueError):
+    """Measurements that are damaged or do not fit the request."""
+
+
 class InvalidWeights(PlanformerError, ValueError):
     """A weights file or its card that cannot be used."""
 
 
 class WeightsMismatch(InvalidWeights):
-    """Weights that do not fit the problem, the network or their own card."""
+    """Weights that do not fit the problem, the network, the training or their own card."""
+
+
+class TrainingDiverged(PlanformerError, ArithmeticError):
+    """The loss or its gradient is infinite or no number.
+
+    Attributes:
+        step: Optimiser steps taken before.
+        learning_rate: Learning rate of the step that was not taken.
+    """
+
+    def __init__(self, message: str, *, step: int, learning_rate: float) -> None:
+        super().__init__(message)
+        self.step, self.learning_rate = step, learning_rate
 
 
 class MissingExtra(PlanformerError, ImportError):

@@ -8,6 +8,7 @@ import typer
 from typer.core import TyperGroup
 
 import planformer
+from planformer.cli.bench import bench_app
 from planformer.cli.console import give_up_stdout, report
 from planformer.cli.exit_codes import BAD_INPUT, BROKEN_PIPE, INTERRUPTED
 from planformer.cli.export import export_command
@@ -71,6 +72,7 @@ app.command("info")(info_command)
 app.command("generate")(generate_command)
 app.command("train")(train_command)
 app.command("export")(export_command)
+app.add_typer(bench_app, name="bench")
 
 
 def main() -> None:

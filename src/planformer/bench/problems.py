@@ -1,0 +1,112 @@
+"""The problems of a row: the same ones for every run of a benchmark, on maps of their own.
+
+Training data draw the map number i of a kind from ``SeedSequence(seed, spawn_key=...)`` with the
+seed of the data set (`planformer.data.generate`). Problem maps here draw from ``SeedSequence(2**32
++ seed, spawn_key=...)``, so no data set of a seed below 2**32 shares one.
+"""
+
+from __future__ import annotations
+
+import zlib
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import islice
+
+import numpy as np
+from numpy.typing import NDArray
+
+from planformer.bench.reference import reference_path
+from planformer.bench.rows import Row
+from planformer.data.problems import random_problems
+from planformer.errors import InvalidParameter
+from planformer.geometry import polyline_length
+from planformer.planning import Problem
+
+PROBLEMS_PER_MAP = 4
+EVALUATION_ENTROPY = 2**32
+"""Added to the seed: entropy that no data set of a smaller seed draws its maps from."""
+_ATTEMPTS = 20
+
+
+@dataclass(frozen=True, eq=False)
+class BenchProblem:
+    """A problem with the best path known.
+
+    Attributes:
+        row: Its row.
+        index: Its number in the row.
+        scene: Name of its scene.
+        problem: The problem.
+        reference: (N, 2) or (N, 3) path in the world frame.
+        seed: Seed for whatever the problem is measured with, below 2**32.
+        replaced: How many maps or problems were given up before it.
+    """
+
+    row: Row
+    index: int
+    scene: str
+    problem: Problem
+    reference: NDArray[np.float64]
+    seed: int
+    replaced: int
+
+    @property
+    def reference_length(self) -> float:
+        """Length of the reference in metres."""
+        return polyline_length(self.reference)
+
+    @property
+    def target_length(self) -> float:
+        """Length in metres up to which a path solves the problem."""
+        return self.row.slack * self.reference_length
+
+
+def make_problem(row: Row, index: int, seed: int) -> BenchProblem:
+    """Draw a problem of a row.
+
+    A map that has no problem, or a problem that the expert cannot solve, is replaced by that of
+    the next attempt, and the number of attempts noted.
+
+    Args:
+        row: The row.
+        index: The problem's number, >= 0; `PROBLEMS_PER_MAP` in a row share a map.
+        seed: The benchmark's seed, >= 0.
+
+    Raises:
+        InvalidParameter: No attempt gives a problem.
+    """
+    number, place = divmod(index, PROBLEMS_PER_MAP)
+    scene = row.scenes[number % len(row.scenes)]
+    for attempt in range(_ATTEMPTS):
+        problems, search_seeds = _problems_on_map(row, number, attempt, seed)
+        if not problems:
+            continue
+        problem, search_seed = problems[place], search_seeds[place]
+        reference = reference_path(problem, search_seed)
+        if reference is not None:
+            return BenchProblem(row, index, scene.name, problem, reference, search_seed, attempt)
+    raise InvalidParameter(f"{_ATTEMPTS} attempts gave no problem {index} of the row {row.name}")
+
+
+@lru_cache(maxsize=4)
+def _problems_on_map(
+    row: Row, number: int, attempt: int, seed: int
+) -> tuple[list[Problem], list[int]]:
+    """The problems of a map and a seed for each; no problems where the map has none."""
+    key = (zlib.crc32(row.name.encode()), number, attempt)
+    entropy = np.random.SeedSequence(EVALUATION_ENTROPY + seed, spawn_key=key)
+    map_seed, problem_seed = (int(s) for s in entropy.generate_state(2, np.uint64))
+    scene = row.scenes[number % len(row.scenes)]
+    rng = np.random.default_rng(problem_seed)
+    seeds = rng.integers(1, 2**32, size=PROBLEMS_PER_MAP).tolist()
+    try:
+        problems = random_problems(
+            scene.maps.grid(map_seed),
+            scene.robot,
+            min_distance=row.min_distance,
+            max_distance=row.max_distance,
+            rng=rng,
+        )
+        return list(islice(problems, PROBLEMS_PER_MAP)), seeds
+    except InvalidParameter:  # the generator failed, or the map has no room
+        return [], seeds

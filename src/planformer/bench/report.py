@@ -1,0 +1,114 @@
+"""The files of a finished benchmark: summary, table, all records; and the table in a page."""
+
+from __future__ import annotations
+
+import gzip
+import json
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from planformer.bench.records import Record, to_csv
+from planformer.bench.rows import Row
+from planformer.bench.store import ResultFolder, write_text
+from planformer.bench.summary import summarise
+from planformer.errors import InvalidResults
+from planformer.files import whole_file
+
+SUMMARY, TABLE, PROBLEMS = "summary.json", "table.md", "problems.csv.gz"
+BEGIN, END = "<!-- begin accuracy table -->", "<!-- end accuracy table -->"
+
+COLUMNS = {
+    "solved %": ("solved_percent", ".1f"),
+    "connected %": ("connected_percent", ".1f"),
+    "region %": ("region_percent", ".1f"),
+    "ideal %": ("ideal_region_percent", ".1f"),
+    "region / ideal": ("region_over_ideal", ".2f"),
+    "length": ("length_ratio", ".3f"),
+    "length, 90 %": ("length_ratio_p90", ".3f"),
+    "proposal ms": ("proposal_ms", ".0f"),
+    "total ms": ("total_ms", ".0f"),
+    "vertices": ("vertices", ",.0f"),
+}
+"""Columns of the table: the measure and its format."""
+SHORT = ("solved %", "connected %", "region / ideal", "total ms", "vertices")
+"""Those that fit on a terminal."""
+
+
+def write_report(
+    results: ResultFolder, records: Sequence[Record], rows: Sequence[Row]
+) -> dict[str, Any]:
+    """Write summary.json, table.md and problems.csv.gz into the folder of the results.
+
+    Returns:
+        The content of summary.json.
+    """
+    summary = {
+        "settings": results.settings,
+        "sessions": results.sessions,
+        "lines": summarise(records, rows),
+    }
+    write_text(results.path / SUMMARY, json.dumps(summary, indent=2, allow_nan=False) + "\n")
+    write_text(results.path / TABLE, markdown(summary))
+    with whole_file(results.path / PROBLEMS) as file:
+        # Without the time in it, so that the same records make the same file.
+        file.write(gzip.compress(to_csv(records).encode(), mtime=0))
+    return summary
+
+
+def markdown(summary: Mapping[str, Any]) -> str:
+    """The lines of a summary as a Markdown table, with how they were measured and what failed."""
+    lines = summary["lines"]
+    rows = (table_cells(line, COLUMNS, intervals=True) for line in lines)
+    header = ["maps", "guide", "threshold", "problems", *COLUMNS]
+    table = [header, ["---"] * len(header), *rows]
+    text = [f"| {' | '.join(cells)} |" for cells in table]
+    text += ["", *(f"- {_machine(session)}" for session in summary["sessions"])]
+    failures = [f"- {_name(line)}: {_causes(line)}" for line in lines if line["causes"]]
+    return "\n".join([*text, *(["", "Not solved:", ""] if failures else []), *failures]) + "\n"
+
+
+def table_cells(
+    line: Mapping[str, Any], columns: Mapping[str, tuple[str, str]], *, intervals: bool
+) -> list[str]:
+    """The cells of a line: names, number of problems and some of `COLUMNS`."""
+    values = [_cell(line[measure], style, intervals) for measure, style in columns.values()]
+    return [line["row"], line["guide"], line["threshold"], f"{line['problems']:,}", *values]
+
+
+def update_page(page: Path, table: str) -> None:
+    """Put a table between the markers of a page.
+
+    Raises:
+        InvalidResults: The page cannot be read or lacks the markers.
+    """
+    try:
+        before, rest = page.read_text(encoding="utf-8").split(f"{BEGIN}\n")
+        _, after = rest.split(END)
+    except (OSError, ValueError) as error:
+        raise InvalidResults(f"{page} must hold {BEGIN} and {END} once, in this order") from error
+    write_text(page, f"{before}{BEGIN}\n\n{table}\n{END}{after}")
+
+
+def _cell(interval: Mapping[str, float | None], style: str, with_ends: bool) -> str:
+    value, low, high = (
+        "∞" if interval[end] is None else format(interval[end], style)
+        for end in ("value", "low", "high")
+    )
+    return value if not with_ends or low == high == value else f"{value} [{low}, {high}]"
+
+
+def _name(line: Mapping[str, Any]) -> str:
+    return f"{line['row']}, {line['guide']}, {line['threshold']} threshold"
+
+
+def _causes(line: Mapping[str, Any]) -> str:
+    return ", ".join(f"{cause} {count}" for cause, count in line["causes"].items())
+
+
+def _machine(session: Mapping[str, Any]) -> str:
+    return (
+        f"`{session['command']}`, {session['date']}, commit {session['commit']}, planformer "
+        f"{session['planformer']}, OMPL {session['ompl']}, {session['cores']} cores of "
+        f"{session['cpu']}"
+    )

@@ -1,0 +1,115 @@
+"""`planformer bench`: measure guides and planners; one benchmark a subcommand."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from planformer.cli.console import print_json, stderr, stdout
+
+bench_app = typer.Typer(no_args_is_help=True, help="Measure guides; results can be completed.")
+
+
+@bench_app.command("accuracy")
+def accuracy_command(
+    problems: Annotated[int, typer.Option(help="Problems in each row.")],
+    rows: Annotated[
+        str | None,
+        typer.Option(help="Rows, separated by commas: kinds and sizes of maps. Default: all."),
+    ] = None,
+    guide: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="Shipped weights, the path of an .onnx file, 'ideal' or 'wavefront'; "
+            "can be repeated. Default: mpt and ideal."
+        ),
+    ] = None,
+    output: Annotated[Path, typer.Option(metavar="FOLDER", help="Folder of the results.")] = Path(
+        "bench_accuracy"
+    ),
+    real_maps: Annotated[
+        Path | None,
+        typer.Option(metavar="FOLDER", help="Folder with the real maps; adds their rows."),
+    ] = None,
+    workers: Annotated[
+        int, typer.Option(help="Number of processes; several make times those of a busy machine.")
+    ] = 1,
+    limit: Annotated[
+        float | None,
+        typer.Option(help="Seconds of a search. Default: 10 for a point robot, 2 for a car."),
+    ] = None,
+    max_vertices: Annotated[
+        int | None, typer.Option(help="End a search at this many vertices as well.")
+    ] = None,
+    seed: Annotated[int, typer.Option(help="Seed of the problems.")] = 0,
+    page: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Page to put the table into.")
+    ] = None,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print the summary as JSON and nothing else.")
+    ] = False,
+) -> None:
+    """Measure how often RRT* finds good paths in the proposed regions alone.
+
+    Ctrl-C keeps what is measured; the same command goes on.
+
+    Example: planformer bench accuracy --problems 5 --rows forest-480,maze-480
+    """
+    from planformer.bench import AccuracySettings, run_accuracy
+    from planformer.bench.report import markdown, update_page
+    from planformer.bench.rows import chosen_rows
+
+    names = None if rows is None else [name.strip() for name in rows.split(",")]
+    guides = {"guides": tuple(guide)} if guide else {}
+    with _progress_bar() as show:
+        summary = run_accuracy(
+            output,
+            chosen_rows(names, real_maps),
+            problems=problems,
+            settings=AccuracySettings(
+                seed=seed, seconds=limit, max_vertices=max_vertices, **guides
+            ),
+            workers=workers,
+            report=show,
+        )
+    if page is not None:
+        update_page(page, markdown(summary))
+    if as_json:
+        print_json(summary)
+    else:
+        _print_table(summary, output)
+
+
+@contextmanager
+def _progress_bar() -> Iterator[Callable[[int, int], None]]:
+    """A bar on stderr; yields what shows the progress."""
+    from rich import progress as bars
+
+    columns = (
+        bars.TextColumn("{task.completed} of {task.total} problems"),
+        bars.BarColumn(),
+        bars.TimeElapsedColumn(),
+        bars.TimeRemainingColumn(elapsed_when_finished=True),
+    )
+    with bars.Progress(*columns, console=stderr) as bar:
+        task = bar.add_task("problems", total=None)
+        yield lambda done, total: bar.update(task, completed=done, total=total)
+
+
+def _print_table(summary: dict[str, Any], output: Path) -> None:
+    from rich.table import Column, Table
+
+    from planformer.bench.report import COLUMNS, SHORT, table_cells
+
+    columns = {name: COLUMNS[name] for name in SHORT}
+    names = [Column(name, no_wrap=True) for name in ("maps", "guide", "threshold")]
+    numbers = [Column(name.replace(" ", "\n", 1), justify="right") for name in ("N", *columns)]
+    table = Table(*names, *numbers, box=None, padding=(0, 2, 0, 0), pad_edge=False)
+    for line in summary["lines"]:
+        table.add_row(*table_cells(line, columns, intervals=False))
+    stdout.print(table)
+    stdout.print(f"{output}: summary.json, table.md, problems.csv.gz", soft_wrap=True)

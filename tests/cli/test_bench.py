@@ -1,0 +1,52 @@
+from __future__ import annotations
+
+import json
+
+import pytest
+
+QUICK = ("--guide", "wavefront", "--max-vertices", 50, "--problems", 1, "--rows", "forest-360x240")
+
+
+def test_accuracy_writes_prints_and_completes(cli, tmp_path):
+    folder = tmp_path / "out"
+    first = cli("bench", "accuracy", *QUICK, "--output", folder, "--json")
+    assert first.exit_code == 0, first.output
+    summary = json.loads(first.stdout)
+    assert summary == json.loads((folder / "summary.json").read_text())
+    assert [line["row"] for line in summary["lines"]] == ["forest-360x240"] * 2
+    again = cli("bench", "accuracy", *QUICK, "--output", folder)
+    assert again.exit_code == 0, again.output
+    assert "forest-360x240" in again.output
+    assert json.loads((folder / "summary.json").read_text()) == summary
+
+
+def test_accuracy_updates_a_page(cli, tmp_path):
+    page = tmp_path / "page.md"
+    page.write_text("<!-- begin accuracy table -->\n<!-- end accuracy table -->\n")
+    options = ("--output", tmp_path / "out", "--page", page)
+    assert cli("bench", "accuracy", *QUICK, *options).exit_code == 0
+    assert "| forest-360x240 | wavefront | fixed | 1 |" in page.read_text()
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (("--rows", "swamp"), "unknown rows swamp"),
+        (("--guide", "nothing"), "unknown guide 'nothing'"),
+        (("--problems", 0), "problems must be >= 1"),
+        (("--real-maps", "nowhere"), "lacks the maps"),
+        (("--limit", -1), "seconds must be > 0"),
+    ],
+)
+def test_accuracy_refuses_bad_input(cli, tmp_path, options, message):
+    result = cli("bench", "accuracy", *QUICK, "--output", tmp_path / "out", *options)
+    assert result.exit_code == 2
+    assert message in result.output
+    assert not (tmp_path / "out").exists()
+
+
+def test_accuracy_refuses_results_of_other_settings(cli, tmp_path):
+    assert cli("bench", "accuracy", *QUICK, "--output", tmp_path / "out").exit_code == 0
+    other = cli("bench", "accuracy", *QUICK, "--output", tmp_path / "out", "--seed", 1)
+    assert other.exit_code == 2
+    assert "other settings: seed 0 (asked for 1)" in other.output
