@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace planformer {
 
@@ -22,7 +23,8 @@ Pose sample_square(const Pose& anchor, double half_width, ompl::RNG& rng) {
             anchor.y + rng.uniformReal(-half_width, half_width), rng.uniformReal(-kPi, kPi)};
 }
 
-Pose sample_ellipse(const Region& region, const Pose& anchor, ompl::RNG& rng) {
+Pose sample_ellipse(const Region& region, std::size_t index, ompl::RNG& rng) {
+    const Pose& anchor = region.anchors[index];
     const double radius = std::sqrt(rng.uniform01());
     const double angle = rng.uniformReal(-kPi, kPi);
     const double along = region.half_width * radius * std::cos(angle);
@@ -30,7 +32,7 @@ Pose sample_ellipse(const Region& region, const Pose& anchor, ompl::RNG& rng) {
     const double c = std::cos(anchor.yaw);
     const double s = std::sin(anchor.yaw);
     return {anchor.x + c * along - s * across, anchor.y + s * along + c * across,
-            rng.gaussian(anchor.yaw, region.yaw_deviation)};
+            rng.gaussian(anchor.yaw, region.yaw_deviations[index])};
 }
 
 }  // namespace
@@ -58,9 +60,9 @@ Pose read_state(const ob::StateSpace& space, const ob::State* state) {
 
 Pose sample_region(const Region& region, ompl::RNG& rng) {
     const int last = static_cast<int>(region.anchors.size()) - 1;
-    const Pose& anchor = region.anchors[rng.uniformInt(0, last)];
-    if (region.has_heading) return sample_ellipse(region, anchor, rng);
-    return sample_square(anchor, region.half_width, rng);
+    const auto index = static_cast<std::size_t>(rng.uniformInt(0, last));
+    if (region.has_heading) return sample_ellipse(region, index, rng);
+    return sample_square(region.anchors[index], region.half_width, rng);
 }
 
 Pose sample_extent(const Extent& extent, ompl::RNG& rng) {

@@ -17,14 +17,15 @@ namespace planformer {
 ///
 /// Without headings the shape is a square of side 2 * half_width, and a car's yaw is uniform. With
 /// headings it is an ellipse with semi-axes (half_width, minor_axis) turned along the heading, and
-/// the yaw is Gaussian round it (Motion Planning Transformers, section III.B).
+/// the yaw is Gaussian round it (Motion Planning Transformers, section III.B), as widely as the
+/// proposal is unsure of it.
 struct Region {
     std::vector<Pose> anchors;  ///< yaw is the predicted heading
     bool has_heading = false;
-    double half_width = 0.0;     ///< [m]
-    double minor_axis = 0.0;     ///< [m]
-    double yaw_deviation = 0.0;  ///< standard deviation of the yaw [rad]
-    double area = 0.0;           ///< [m^2] of the union of the shapes
+    double half_width = 0.0;             ///< [m]
+    double minor_axis = 0.0;             ///< [m]
+    std::vector<double> yaw_deviations;  ///< standard deviation of each anchor's yaw [rad]
+    double area = 0.0;                   ///< [m^2] of the union of the shapes
 };
 
 /// Extent of the map: states are drawn from [0, x] x [0, y].

@@ -56,7 +56,7 @@ class Region:
         has_heading: bool,
         half_width: float,
         minor_axis: float,
-        yaw_deviation: float,
+        yaw_deviations: NDArray[np.float64],  # (N,) [rad]
         area: float,
     ) -> None: ...
     def sample(self, count: int, seed: int) -> NDArray[np.float64]: ...  # (count, 3)

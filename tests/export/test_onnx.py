@@ -57,18 +57,18 @@ def test_onnx_equals_pytorch_at_many_sizes(tmp_path, body, headings):
     }
 
 
-def test_headings_are_unit_vectors(tmp_path):
-    config = MPTConfig(COMPACT, headings=True)
+def test_the_papers_network_is_equally_sure_of_all_headings(tmp_path):
+    config = MPTConfig(PAPER, QueryKind.SQUARE, headings=True)
     exported = export(_checkpoint(tmp_path / "a.pt", config), tmp_path / "a.onnx")
     session = onnxruntime.InferenceSession(exported.weights)
     inputs = {
         "map": np.zeros((1, 1, 60, 100), np.uint8),
-        "query": np.ones((1, config.scale.query_channels, 12, 20), np.float32),
+        "query": np.ones((1, config.scale.query_channels, 60, 100), np.float32),
     }
     probability, heading = session.run(None, inputs)
     assert probability.shape == (1, 1, 3, 5)
     assert ((probability >= 0) & (probability <= 1)).all()
-    assert np.allclose(np.hypot(*heading[0]), 1, atol=1e-4)
+    assert np.allclose(np.hypot(*heading[0]), 8, atol=1e-3)
 
 
 def test_the_card_describes_the_weights(tmp_path):

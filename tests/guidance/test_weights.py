@@ -86,7 +86,7 @@ def test_a_file_that_is_no_network_is_refused(make_weights, tmp_path):
 
 def test_a_replaced_file_is_loaded_again(make_weights, room):
     path = make_weights(0.25)
-    first, _ = load_network(str(path)).predict(room)
+    first = load_network(str(path)).predict(room).probability
     make_weights(0.75)
-    second, _ = load_network(str(path)).predict(room)
+    second = load_network(str(path)).predict(room).probability
     np.testing.assert_allclose([first.max(), second.max()], [0.25, 0.75])

@@ -35,7 +35,7 @@ def draw(anchors, headings, half_width, count, seed=1):
         has_heading=headings is not None,
         half_width=half_width,
         minor_axis=ELLIPSE_ASPECT * half_width,
-        yaw_deviation=YAW_DEVIATION,
+        yaw_deviations=np.full(len(poses), YAW_DEVIATION),
         area=1.0,
     )
     return region.sample(count, seed)
@@ -68,6 +68,32 @@ def test_ellipses_lie_along_the_heading(heading, half_width, seed):
     turn = wrap_angle(samples[:, 2] - heading)
     assert abs(turn.mean()) < 0.04
     assert turn.std() == pytest.approx(YAW_DEVIATION, rel=0.08)
+
+
+def test_each_anchor_has_its_own_spread_of_the_yaw():
+    deviations = np.array([0.1, 0.8])
+    region = _core.Region(
+        np.array([(0.0, 0.0, 1.0), (10.0, 0.0, -2.0)]),
+        has_heading=True,
+        half_width=0.4,
+        minor_axis=0.2,
+        yaw_deviations=deviations,
+        area=1.0,
+    )
+    samples = region.sample(8000, 1)
+    for anchor, heading, deviation in zip((0.0, 10.0), (1.0, -2.0), deviations, strict=True):
+        near = np.abs(samples[:, 0] - anchor) < 1.0
+        turn = wrap_angle(samples[near, 2] - heading)
+        assert turn.std() == pytest.approx(deviation, rel=0.06)
+
+
+def test_a_spread_for_each_anchor_is_needed():
+    anchors, headings = np.zeros((2, 2)), np.zeros(2)
+    for deviations in (np.ones(3), np.array([1.0, 0.0]), np.array([1.0, np.nan])):
+        with pytest.raises(InvalidParameter, match="yaw_deviations must be 2"):
+            SamplingRegion(anchors, headings, 0.4, 1.0, deviations)
+    with pytest.raises(InvalidParameter, match="go with headings"):
+        SamplingRegion(anchors, None, 0.4, 1.0, np.ones(2))
 
 
 def test_anchors_are_drawn_equally_often():

@@ -68,16 +68,14 @@ def anchor_headings(anchors: NDArray[np.float64], path: ArrayLike) -> NDArray[np
         path: (N, 2) or (N, 3) path in metres, driven from its first point to its last.
 
     Returns:
-        (2, h, w) float32 unit vectors (cos, sin); zero where no path runs within 0.7 m or where
-        opposite directions cancel.
+        (2, h, w) float32 mean of the unit vectors (cos, sin) along the path within 0.7 m; the more
+        the path turns there, the shorter. Zero where there is no path.
     """
     points, directions = _densified(np.asarray(path, dtype=np.float64)[:, :2])
     offsets = anchors.reshape(-1, 1, 2) - points
     near = np.hypot(offsets[..., 0], offsets[..., 1]) <= LABEL_DISTANCE
-    total = near @ directions
-    norm = np.hypot(total[:, 0], total[:, 1])
-    unit = np.where(norm[:, None] > 1e-6, total / np.maximum(norm, 1e-6)[:, None], 0.0)
-    headings: NDArray[np.float32] = unit.T.reshape(2, *anchors.shape[:2]).astype(np.float32)
+    mean = near @ directions / np.maximum(near.sum(axis=1, keepdims=True), 1)
+    headings: NDArray[np.float32] = mean.T.reshape(2, *anchors.shape[:2]).astype(np.float32)
     return headings
 
 

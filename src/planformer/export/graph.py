@@ -1,4 +1,4 @@
-"""The network as deployments run it: raw map in, probabilities and unit headings out."""
+"""The network as deployments run it: raw map in, probabilities and headings out."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ import io
 import warnings
 
 import torch
-import torch.nn.functional as F
 from torch import Tensor, nn
 
 from planformer.encoding import NetworkScale
@@ -35,13 +34,13 @@ class DeployedProposer(nn.Module):
             query: (B, C, H/s, W/s) float32.
 
         Returns:
-            (B, 1, h, w) float32 probabilities and, in SE(2), (B, 2, h, w) float32 unit headings
-            (cos, sin).
+            (B, 1, h, w) float32 probabilities and, in SE(2), (B, 2, h, w) float32 headings as in
+            `Proposal`.
         """
         logits, heading = self.network(occupancy.to(query.dtype), query)
         if heading is None:
             return torch.sigmoid(logits)
-        return torch.sigmoid(logits), F.normalize(heading, dim=1)
+        return torch.sigmoid(logits), heading
 
 
 def example_inputs(

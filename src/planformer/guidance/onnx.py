@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import onnxruntime
@@ -19,6 +19,24 @@ from planformer.guidance.weights import Weights, read_weights, weights_path
 from planformer.planning import Problem
 
 
+_CONCENTRATIONS = (0.3, 100.0)
+"""Bounds of the concentration: yaw deviations from 0.1 rad to nearly any yaw."""
+
+
+class Prediction(NamedTuple):
+    """What a network says of a problem.
+
+    Attributes:
+        probability: (h, w) float32.
+        headings: (h, w) float64 in rad in the map's own frame; None in the plane.
+        yaw_deviations: (h, w) float64, how far [rad] the yaw strays from each heading.
+    """
+
+    probability: NDArray[np.float32]
+    headings: NDArray[np.float64] | None = None
+    yaw_deviations: NDArray[np.float64] | None = None
+
+
 @dataclass(frozen=True)
 class OnnxNetwork:
     """Weights with their ONNX Runtime session; loading takes a while, running does not."""
@@ -26,12 +44,8 @@ class OnnxNetwork:
     weights: Weights
     session: onnxruntime.InferenceSession
 
-    def predict(self, problem: Problem) -> tuple[NDArray[np.float32], NDArray[np.float64] | None]:
+    def predict(self, problem: Problem) -> Prediction:
         """Evaluate the network.
-
-        Returns:
-            (h, w) probabilities and, from a network for SE(2), (h, w) headings in rad in the map's
-            own frame.
 
         Raises:
             WeightsMismatch: The network does not fit the robot or its card.
@@ -48,9 +62,11 @@ class OnnxNetwork:
         outputs = self._run({"map": pixels[None, None], "query": query[None]})
         self._check(outputs, tuple(size // scale.stride for size in pixels.shape))
         if not scale.headings:
-            return outputs[0][0, 0], None
-        cos, sin = outputs[1][0].astype(np.float64)
-        return outputs[0][0, 0], np.arctan2(sin, cos)
+            return Prediction(outputs[0][0, 0])
+        x, y = outputs[1][0].astype(np.float64)
+        # The circular variance of a von Mises distribution nears 1 / concentration.
+        spread = np.clip(np.hypot(x, y), *_CONCENTRATIONS) ** -0.5
+        return Prediction(outputs[0][0, 0], np.arctan2(y, x), spread)
 
     def _run(self, inputs: dict[str, NDArray[Any]]) -> list[NDArray[np.float32]]:
         try:
@@ -101,12 +117,13 @@ class OnnxProposer:
 
     def propose(self, problem: Problem) -> Region:
         """Propose a region for a problem."""
-        probability, headings = self.network.predict(problem)
+        prediction = self.network.predict(problem)
         return make_region(
             problem,
-            probability,
+            prediction.probability,
             self.network.weights.scale,
-            headings=headings,
+            headings=prediction.headings,
+            yaw_deviations=prediction.yaw_deviations,
             threshold=self.threshold,
         )
 

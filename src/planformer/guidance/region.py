@@ -34,6 +34,8 @@ class Region:
         patch: Side of an anchor's patch in metres.
         headings: (h, w) float64 predicted headings in rad in the world frame, None in the plane.
         cell_area: Area of a cell of the map in square metres.
+        yaw_deviations: (h, w) float64 standard deviation of the yaw round each heading in rad; None
+            in the plane, or for the same everywhere.
     """
 
     probability: NDArray[np.float32]
@@ -44,6 +46,7 @@ class Region:
     patch: float
     headings: NDArray[np.float64] | None
     cell_area: float
+    yaw_deviations: NDArray[np.float64] | None = None
 
     @property
     def selected(self) -> NDArray[np.bool_]:
@@ -63,6 +66,7 @@ class Region:
         return SamplingRegion(
             anchors=self.anchors[chosen],
             headings=None if self.headings is None else self.headings[chosen],
+            yaw_deviations=None if self.yaw_deviations is None else self.yaw_deviations[chosen],
             half_width=0.5 * self.patch,
             # At least a cell: the patches of a padded map may lie beside it.
             area=max(int(self.mask.sum()), 1) * self.cell_area,
@@ -83,6 +87,7 @@ def make_region(
     scale: NetworkScale,
     *,
     headings: NDArray[np.float64] | None = None,
+    yaw_deviations: NDArray[np.float64] | None = None,
     threshold: float | None = None,
 ) -> Region:
     """Select anchors and lay their patches over the map.
@@ -92,6 +97,7 @@ def make_region(
         probability: (h, w) probability of each anchor.
         scale: Scale of the network that predicted them.
         headings: (h, w) headings in rad in the map's own frame, None in the plane.
+        yaw_deviations: (h, w) standard deviation of the yaw round them in rad, None for 0.35.
         threshold: Fixed threshold in [0, 1]; 0.5 is the paper's. None chooses it for this query:
             the highest one at which start and goal are connected, relaxed.
 
@@ -100,11 +106,12 @@ def make_region(
             a probability is outside [0, 1].
     """
     probability = _checked_probability(probability)
-    if headings is not None and headings.shape != probability.shape:
-        raise InvalidParameter(
-            f"headings must have the shape of the probability, {probability.shape}; "
-            f"got {headings.shape}"
-        )
+    for name, values in (("headings", headings), ("yaw_deviations", yaw_deviations)):
+        if values is not None and values.shape != probability.shape:
+            raise InvalidParameter(
+                f"{name} must have the shape of the probability, {probability.shape}; "
+                f"got {values.shape}"
+            )
     height, width = probability.shape
     local = anchor_points(height * scale.stride, width * scale.stride, scale)
     cells = spread(probability, problem.grid, scale)
@@ -121,6 +128,7 @@ def make_region(
         patch=scale.patch * scale.resolution,
         headings=None if headings is None else headings + frame.yaw,
         cell_area=problem.grid.resolution**2,
+        yaw_deviations=yaw_deviations,
     )
 
 

@@ -15,6 +15,9 @@ from planformer.models.config import TransformerBody
 from planformer.models.proposal import Proposal
 
 _NORM_EPS = 1e-6
+_CONCENTRATION = 8.0
+"""Length of all headings, since the paper's loss knows their direction alone; the yaw then strays
+by 0.35 rad."""
 
 
 class MotionPlanningTransformer(nn.Module):
@@ -63,7 +66,12 @@ class MotionPlanningTransformer(nn.Module):
         classes = self.classifier(encoded)
         # The difference of two classes' logits is the log-odds of the softmax.
         logits = classes[:, 1:] - classes[:, :1]
-        return Proposal(logits, None if self.orientation is None else self.orientation(encoded))
+        return Proposal(logits, self._heading(encoded))
+
+    def _heading(self, encoded: Tensor) -> Tensor | None:
+        if self.orientation is None:
+            return None
+        return _CONCENTRATION * F.normalize(self.orientation(encoded), dim=1)
 
 
 class PositionEncoding(nn.Module):

@@ -12,7 +12,8 @@ class Proposal(NamedTuple):
 
     Attributes:
         logits: (B, 1, h, w) log-odds that a good path runs through the token's patch.
-        heading: (B, 2, h, w) direction of travel (cos, sin), not normalised; None in the plane.
+        heading: (B, 2, h, w) vector along the direction of travel, as long as the network is sure:
+            its length is the concentration of a von Mises distribution. None in the plane.
     """
 
     logits: Tensor

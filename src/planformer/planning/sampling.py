@@ -12,7 +12,7 @@ from planformer.errors import InvalidParameter
 ELLIPSE_ASPECT = 0.5
 """Minor over major axis of the ellipses that a car's positions are drawn from."""
 YAW_DEVIATION = 0.35
-"""Standard deviation [rad] of a car's yaw round the predicted heading."""
+"""Standard deviation [rad] of a car's yaw round a heading of unknown certainty."""
 
 
 @dataclass(frozen=True)
@@ -27,6 +27,8 @@ class SamplingRegion:
         headings: (K,) float64 predicted headings in rad, or None.
         half_width: Half the side of a square, or the major semi-axis of an ellipse, in metres.
         area: Area of the union of the shapes in square metres.
+        yaw_deviations: (K,) float64 standard deviation of the yaw round each heading in rad, > 0;
+            None for 0.35 rad everywhere.
 
     Raises:
         InvalidParameter: Empty, mismatched or not finite arrays, or a size that is not positive.
@@ -36,6 +38,7 @@ class SamplingRegion:
     headings: NDArray[np.float64] | None
     half_width: float
     area: float
+    yaw_deviations: NDArray[np.float64] | None = None
 
     def __post_init__(self) -> None:
         if self.anchors.ndim != 2 or self.anchors.shape[1] != 2 or len(self.anchors) == 0:
@@ -45,6 +48,15 @@ class SamplingRegion:
         if self.headings is not None and self.headings.shape != (len(self.anchors),):
             raise InvalidParameter(
                 f"headings must have shape ({len(self.anchors)},); got {self.headings.shape}"
+            )
+        deviations = self.yaw_deviations
+        if deviations is not None and (
+            self.headings is None
+            or deviations.shape != self.headings.shape
+            or not (np.isfinite(deviations) & (deviations > 0.0)).all()
+        ):
+            raise InvalidParameter(
+                f"yaw_deviations must be {len(self.anchors)} finite values > 0 that go with headings"
             )
         sizes = (self.half_width, self.area)
         if not (np.isfinite(sizes).all() and min(sizes) > 0.0):

@@ -166,7 +166,11 @@ def _core_region(region: SamplingRegion, problem: Problem) -> _core.Region:
         has_heading=region.headings is not None,
         half_width=region.half_width,
         minor_axis=ELLIPSE_ASPECT * region.half_width,
-        yaw_deviation=YAW_DEVIATION,
+        yaw_deviations=(
+            np.full(len(headings), YAW_DEVIATION)
+            if region.yaw_deviations is None
+            else region.yaw_deviations
+        ),
         area=region.area,
     )
 
