@@ -20,11 +20,12 @@ class DeployedProposer(nn.Module):
 
     Args:
         network: A network that returns a `Proposal`.
+        log_odds_shift: Added to the log-odds of every anchor.
     """
 
-    def __init__(self, network: nn.Module) -> None:
+    def __init__(self, network: nn.Module, log_odds_shift: float = 0.0) -> None:
         super().__init__()
-        self.network = network
+        self.network, self.log_odds_shift = network, log_odds_shift
 
     def forward(self, occupancy: Tensor, query: Tensor) -> Tensor | tuple[Tensor, Tensor]:
         """Propose a region.
@@ -38,9 +39,8 @@ class DeployedProposer(nn.Module):
             `Proposal`.
         """
         logits, heading = self.network(occupancy.to(query.dtype), query)
-        if heading is None:
-            return torch.sigmoid(logits)
-        return torch.sigmoid(logits), heading
+        probability = torch.sigmoid(logits + self.log_odds_shift)
+        return probability if heading is None else (probability, heading)
 
 
 def example_inputs(
@@ -55,11 +55,11 @@ def example_inputs(
     return pixels, 2 * torch.rand(query_shape, generator=generator) - 1
 
 
-def to_onnx(network: nn.Module, scale: NetworkScale) -> bytes:
+def to_onnx(deployed: DeployedProposer, scale: NetworkScale) -> bytes:
     """Translate a network to ONNX with dynamic batch, height and width.
 
     Args:
-        network: The network, in evaluation mode on the CPU.
+        deployed: The network, in evaluation mode on the CPU.
         scale: Its scale.
 
     Returns:
@@ -74,7 +74,7 @@ def to_onnx(network: nn.Module, scale: NetworkScale) -> bytes:
         warnings.simplefilter("ignore", DeprecationWarning)
         warnings.simplefilter("ignore", torch.jit.TracerWarning)  # type: ignore[attr-defined]
         torch.onnx.export(
-            DeployedProposer(network).eval(),  # the export restores this mode, of all parts
+            deployed.eval(),  # the export restores this mode, of all parts
             inputs,
             file,  # type: ignore[arg-type]  # declared for paths, made for files too
             dynamo=False,

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 import torch
 from numpy.typing import NDArray
-from torch import nn
 
 from planformer.encoding import NetworkScale
-from planformer.errors import InvalidWeights, MissingExtra
+from planformer.errors import InvalidParameter, InvalidWeights, MissingExtra
 from planformer.export.card import write_card
-from planformer.export.graph import MAP, QUERY, example_inputs, to_onnx
+from planformer.export.graph import MAP, QUERY, DeployedProposer, example_inputs, to_onnx
 from planformer.files import whole_file
 from planformer.models import load_checkpoint
 
@@ -38,7 +38,13 @@ class Exported(NamedTuple):
     difference: float
 
 
-def export(checkpoint: str | Path, path: str | Path, *, name: str | None = None) -> Exported:
+def export(
+    checkpoint: str | Path,
+    path: str | Path,
+    *,
+    name: str | None = None,
+    log_odds_shift: float = 0.0,
+) -> Exported:
     """Export a training's checkpoint to one .onnx file with a card.
 
     The weights are stored in float32: a compact network is a few MB, and half precision would
@@ -49,22 +55,27 @@ def export(checkpoint: str | Path, path: str | Path, *, name: str | None = None)
         checkpoint: A file that `planformer.training.train` wrote.
         path: The .onnx file to write, its folder is created; the card takes its name.
         name: Name of the weights; by default the file's.
+        log_odds_shift: Added to the log-odds of every anchor: with a positive shift the fixed
+            threshold of 0.5 leaves out fewer of the shortest paths and selects larger regions.
 
     Returns:
         The files and the largest difference seen.
 
     Raises:
         InvalidWeights: The checkpoint is damaged, or the exported network differs.
+        InvalidParameter: The shift is not finite.
         MissingExtra: onnx or ONNX Runtime is not installed.
     """
     path = Path(path)
+    if not math.isfinite(log_odds_shift):
+        raise InvalidParameter(f"log_odds_shift must be finite; got {log_odds_shift}")
     if path.suffix != ".onnx":
         raise InvalidWeights(f"weights are exported to a file named *.onnx; got {path}")
     network, model, stored = load_checkpoint(Path(checkpoint))
-    model.eval()
+    deployed = DeployedProposer(model, log_odds_shift).eval()
     try:
-        content = to_onnx(model, network.scale)
-        difference = largest_difference(content, model, network.scale)
+        content = to_onnx(deployed, network.scale)
+        difference = largest_difference(content, deployed, network.scale)
     except ModuleNotFoundError as error:
         raise MissingExtra(error.name or "onnx", "train") from error
     if not difference <= TOLERANCE:
@@ -79,24 +90,24 @@ def export(checkpoint: str | Path, path: str | Path, *, name: str | None = None)
         path,
         network,
         name=name or path.stem,
+        log_odds_shift=log_odds_shift,
         training={key: stored.get(key) for key in ("training", "data", "step", "seconds")},
         accuracy=_last_metrics(stored.get("history", [])),
     )
     return Exported(path, card, difference)
 
 
-def largest_difference(content: bytes, model: nn.Module, scale: NetworkScale) -> float:
+def largest_difference(content: bytes, deployed: DeployedProposer, scale: NetworkScale) -> float:
     """Compare ONNX Runtime with PyTorch on random inputs of all `CHECKED_SIZES`.
 
     Args:
         content: The serialised ONNX model.
-        model: The network that it was made from, in evaluation mode.
+        deployed: The network that it was made from, in evaluation mode.
         scale: The network's scale.
 
     Returns:
-        The largest absolute difference of a probability, or of a component of a heading times
-        its length before normalisation, at most 1: the direction of nothing is left to rounding.
-        NaN if there is one.
+        The largest absolute difference of a probability or of a component of a heading, the latter
+        over the heading's length where that exceeds 1. NaN if there is one.
     """
     import onnxruntime
 
@@ -106,12 +117,14 @@ def largest_difference(content: bytes, model: nn.Module, scale: NetworkScale) ->
         pixels, query = example_inputs(scale, height, width, batch=1 + seed % 2, seed=seed)
         actual = session.run(None, {MAP: pixels.numpy(), QUERY: query.numpy()})
         with torch.no_grad():
-            logits, heading = model(pixels.float(), query)
-        differences.append(_largest(actual[0] - logits.sigmoid().numpy()))
-        if heading is not None:
-            length = heading.norm(dim=1, keepdim=True)
-            unit = (heading / length).numpy()
-            differences.append(_largest((actual[1] - unit) * length.clamp(max=1).numpy()))
+            expected = deployed(pixels, query)
+        if not scale.headings:
+            differences.append(_largest(actual[0] - expected.numpy()))
+            continue
+        probability, heading = expected
+        length = heading.norm(dim=1, keepdim=True).clamp(min=1)
+        differences.append(_largest(actual[0] - probability.numpy()))
+        differences.append(_largest((actual[1] - heading.numpy()) / length.numpy()))
     return float(np.max(differences))
 
 
