@@ -1,9 +1,11 @@
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 from planformer.errors import InvalidParameter
-from planformer.files import whole_file, write_files
+from planformer.files import remove_unfinished, whole_file, write_files
 
 
 @pytest.mark.parametrize("error", [RuntimeError, KeyboardInterrupt])
@@ -20,6 +22,15 @@ def test_a_failed_write_leaves_the_old_file(tmp_path, error):
         write_half()
     assert path.read_bytes() == b"old"
     assert [p.name for p in tmp_path.iterdir()] == ["file"]
+
+
+def test_what_a_killed_process_left_can_be_removed(tmp_path):
+    (tmp_path / "kept.tmp").touch()
+    with whole_file(tmp_path / "file") as file:  # as good as killed: it never ends
+        assert len(list(tmp_path.iterdir())) == 2
+        remove_unfinished(tmp_path)
+        assert [p.name for p in tmp_path.iterdir()] == ["kept.tmp"]
+        (tmp_path / Path(file.name).name).touch()
 
 
 def test_several_files_are_replaced_only_together(tmp_path):

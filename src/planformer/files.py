@@ -29,6 +29,12 @@ def whole_file(path: Path) -> Iterator[BinaryIO]:
         temporary.unlink(missing_ok=True)
 
 
+def remove_unfinished(folder: Path) -> None:
+    """Remove what processes that were killed have left of files that they were writing."""
+    for leftover in folder.glob(".*.tmp"):
+        leftover.unlink(missing_ok=True)
+
+
 def write_files(contents: Mapping[Path, bytes]) -> None:
     """Write several files; none is replaced before all have been written.
 

@@ -15,7 +15,7 @@ class StraightPaths:
 
     def __init__(self, count, seed=0):
         rng = np.random.default_rng(seed)
-        self.spec = DatasetSpec(kinds=("forest",), maps=1, paths_per_map=count, seed=0, size=SIDE)
+        self.spec = DatasetSpec(kinds=("forest",), maps=1, paths_per_map=count, seed=seed)
         self.recipes = (MapRecipe("forest", 0, SIDE, SIDE, 0.05),)
         self._ends = rng.uniform(0.2, SIDE - 1.2, (count, 2, 2))
 

@@ -2,15 +2,24 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 import pytest
+from scipy import stats
 
 pytest.importorskip("torch", reason="training needs PyTorch")
 
 import torch
+import torch.nn.functional as F
 
 from planformer.models import Proposal
 from planformer.training import TrainConfig
-from planformer.training.losses import balanced_cross_entropy, heading_loss, proposal_loss
+from planformer.training.losses import (
+    balanced_cross_entropy,
+    cosine_loss,
+    imitation_loss,
+    proposal_loss,
+    von_mises_loss,
+)
 from planformer.training.samples import Batch
 
 
@@ -21,13 +30,17 @@ def _labels():
     return positive
 
 
+def _batch(labels):
+    return Batch(labels, labels, labels, torch.empty(3, 0, 10, 10), torch.ones_like(labels))
+
+
 def test_balanced_loss_ignores_how_many_negatives_there_are():
     labels = _labels()
     logits = torch.where(labels > 0.5, 1.0, -2.0)
     own = [math.log1p(math.exp(-1.0)), math.log1p(math.exp(-2.0))]
     with torch.random.fork_rng():
-        loss = balanced_cross_entropy(logits, labels)
-    assert torch.isclose(loss, torch.tensor(2 * sum(own) / 2))
+        loss = balanced_cross_entropy(logits, labels, torch.ones_like(labels))
+    assert torch.isclose(loss, torch.tensor(2 * sum(own) / 2 / 3))
 
 
 def test_balanced_loss_draws_negatives_at_random():
@@ -35,12 +48,61 @@ def test_balanced_loss_draws_negatives_at_random():
     logits = torch.linspace(-3, 3, 300).reshape(3, 1, 10, 10)
     with torch.random.fork_rng():
         torch.manual_seed(0)
-        assert balanced_cross_entropy(logits, labels) != balanced_cross_entropy(logits, labels)
+        losses = {
+            float(balanced_cross_entropy(logits, labels, torch.ones_like(labels))) for _ in "abc"
+        }
+    assert len(losses) == 3
+
+
+@pytest.mark.parametrize("recipe", ["compact", "paper"])
+@pytest.mark.parametrize("focal_gamma", [0.0, 2.0])
+def test_anchors_beyond_the_map_count_for_nothing(recipe, focal_gamma):
+    config = TrainConfig(steps=1, recipe=recipe, focal_gamma=focal_gamma)
+    labels = _labels()
+    logits = torch.linspace(-3, 3, 300).reshape(3, 1, 10, 10)
+    heading = torch.zeros(3, 2, 10, 10)
+    alone = _batch(labels)
+    margin = (0, 4, 0, 7)
+    padded = Batch(
+        *(F.pad(tensor, margin) for tensor in (labels, labels, labels, heading, alone.inside))
+    )
+    losses = []
+    for filler in (-9.0, 0.0, 9.0):
+        with torch.random.fork_rng():
+            torch.manual_seed(0)
+            proposal = Proposal(F.pad(logits, margin, value=filler), None)
+            losses.append(float(proposal_loss(proposal, padded, config)))
+    assert len(set(losses)) == 1
+    if recipe == "compact":  # the paper's draws other negatives
+        assert losses[0] == pytest.approx(
+            float(proposal_loss(Proposal(logits, None), alone, config))
+        )
+
+
+def test_focal_loss_makes_light_of_what_is_right():
+    labels = _labels()
+    right = Proposal(torch.where(labels > 0.5, 2.0, -2.0), None)
+    wrong = Proposal(-right.logits, None)
+    plain, focal = (TrainConfig(steps=1, focal_gamma=gamma) for gamma in (0.0, 2.0))
+    for proposal, least, most in ((right, 0.0, 0.05), (wrong, 0.7, 1.0)):
+        ratio = proposal_loss(proposal, _batch(labels), focal) / proposal_loss(
+            proposal, _batch(labels), plain
+        )
+        assert least < ratio < most
+
+
+def test_imitation_is_best_where_pupil_and_teacher_agree():
+    teacher = torch.linspace(-3, 3, 300).reshape(3, 1, 10, 10)
+    inside = torch.ones_like(teacher)
+    pupil = teacher.clone().requires_grad_()
+    imitation_loss(pupil, teacher, inside).backward()
+    assert torch.allclose(pupil.grad, torch.zeros(()), atol=1e-7)
+    assert imitation_loss(teacher + 1, teacher, inside) > imitation_loss(teacher, teacher, inside)
 
 
 def test_positive_weight_raises_the_price_of_misses_only():
     labels = _labels()
-    batch = Batch(labels, labels, labels, torch.empty(3, 0, 10, 10))
+    batch = _batch(labels)
     light, heavy = (TrainConfig(steps=1, positive_weight=w) for w in (1.0, 4.0))
     missing = Proposal(torch.full_like(labels, -5.0), None)
     false = Proposal(torch.where(labels > 0.5, 20.0, 5.0), None)
@@ -48,14 +110,24 @@ def test_positive_weight_raises_the_price_of_misses_only():
     assert torch.isclose(proposal_loss(false, batch, heavy), proposal_loss(false, batch, light))
 
 
-def test_heading_loss_is_zero_for_the_right_direction_and_two_for_the_opposite():
+def test_cosine_loss_is_zero_for_the_right_direction_and_two_for_the_opposite():
     target = torch.zeros(1, 2, 4, 4)
     target[0, :, 1, 1] = torch.tensor([0.6, 0.8])
-    assert torch.isclose(heading_loss(5 * target, target), torch.tensor(0.0), atol=1e-6)
-    assert torch.isclose(heading_loss(-target, target), torch.tensor(2.0))
+    assert torch.isclose(cosine_loss(5 * target, target), torch.tensor(0.0), atol=1e-6)
+    assert torch.isclose(cosine_loss(-target, target), torch.tensor(2.0))
     anywhere_else = target + (target == 0).all(1, keepdim=True).float()
-    assert torch.isclose(heading_loss(anywhere_else, target), torch.tensor(0.0), atol=1e-6)
+    assert torch.isclose(cosine_loss(anywhere_else, target), torch.tensor(0.0), atol=1e-6)
 
 
-def test_heading_loss_without_labels_is_zero():
-    assert heading_loss(torch.ones(1, 2, 3, 3), torch.zeros(1, 2, 3, 3)) == 0
+def test_von_mises_loss_is_the_likelihood_of_the_headings_near_an_anchor():
+    angles = np.random.default_rng(1).normal(0.7, 0.4, 50)
+    target = torch.tensor([np.cos(angles).mean(), np.sin(angles).mean()]).reshape(1, 2, 1, 1)
+    mean, concentration = 0.5, 3.0
+    heading = concentration * torch.tensor([np.cos(mean), np.sin(mean)]).reshape(1, 2, 1, 1)
+    expected = -stats.vonmises(concentration, loc=mean).logpdf(angles).mean() - np.log(2 * np.pi)
+    assert float(von_mises_loss(heading, target)) == pytest.approx(expected, rel=1e-6)
+
+
+@pytest.mark.parametrize("loss", [cosine_loss, von_mises_loss])
+def test_headings_without_labels_cost_nothing(loss):
+    assert loss(torch.ones(1, 2, 3, 3), torch.zeros(1, 2, 3, 3)) == 0

@@ -40,6 +40,10 @@ def test_cosine_falls_from_its_peak_to_a_fiftieth(limit):
         {"steps": 1, "recipe": "sgd"},
         {"steps": 1, "workers": -1},
         {"steps": 1, "lr": 0.1},
+        {"steps": 1, "soft_labels": -0.1},
+        {"steps": 1, "focal_gamma": float("nan")},
+        {"steps": 1, "devices": 0},
+        {"steps": 1, "devices": 3, "batch_size": 32},
     ],
 )
 def test_refuses(values):
@@ -60,6 +64,12 @@ def test_batches_continue_where_they_stopped():
     whole = _take(20)
     for step in range(15):
         assert _take(5, step=step) == whole[step : step + 5]
+
+
+def test_processes_share_out_each_batch():
+    for whole, *shares in zip(_take(9), *(_take(9, share=(i, 3)) for i in range(3)), strict=True):
+        assert sorted(key for share in shares for key in share) == sorted(whole)
+        assert max(map(len, shares)) - min(map(len, shares)) <= 1
 
 
 def test_an_epoch_shows_every_problem_at_most_once():

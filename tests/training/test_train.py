@@ -3,6 +3,7 @@ from __future__ import annotations
 import csv
 import os
 import signal
+import sys
 from dataclasses import replace
 
 import numpy as np
@@ -13,10 +14,11 @@ pytest.importorskip("torch", reason="training needs PyTorch")
 import torch
 
 from planformer.encoding import QueryKind
-from planformer.errors import InvalidDataset, InvalidParameter, InvalidWeights
+from planformer.errors import InvalidDataset, InvalidParameter, MissingExtra
 from planformer.models import CompactBody, MPTConfig, TransformerBody, load_checkpoint
 from planformer.training import TrainConfig, train
-from planformer.training.samples import load_example
+from planformer.training.samples import encode_examples
+from planformer.training.sources import load_example
 from planformer.training.validation import region_quality
 
 NETWORK = MPTConfig(CompactBody(width=24, stem=8, groups=1, blocks=1, heads=1, window=6))
@@ -147,11 +149,9 @@ def test_the_log_has_a_row_for_each_validation_and_kind(tmp_path, straight_paths
 
 
 def test_the_ideal_region_is_connected_and_small(straight_paths):
-    from planformer.training.samples import encode_example
-
     scale = NETWORK.scale
     example = load_example(straight_paths(1), 0)
-    positive = encode_example(example, scale).positive[0].numpy() > 0.5
+    positive = encode_examples([example], scale).positive[0, 0].numpy() > 0.5
     joined, share = region_quality(example, positive, scale)
     assert joined
     assert 0 < share < 0.7
@@ -166,12 +166,11 @@ def test_seconds_end_a_training(tmp_path, straight_paths):
     assert (result.step, result.finished) == (1, True)
 
 
-def test_refuses_a_folder_of_another_network(tmp_path, straight_paths):
+def test_several_devices_need_fabric(tmp_path, straight_paths, monkeypatch):
+    monkeypatch.setitem(sys.modules, "lightning_fabric", None)
     data = straight_paths(6)
-    config = replace(CONFIG, steps=1)
-    train(NETWORK, config, data, tmp_path, validation=data)
-    with pytest.raises(InvalidWeights, match="another network"):
-        train(PAPER, config, data, tmp_path, validation=data)
+    with pytest.raises(MissingExtra, match=r"lightning-fabric.*pip install 'planformer\[train\]'"):
+        train(NETWORK, replace(CONFIG, devices=2), data, tmp_path, validation=data)
 
 
 def test_refuses_bad_settings(tmp_path, straight_paths):
@@ -180,4 +179,7 @@ def test_refuses_bad_settings(tmp_path, straight_paths):
         train(NETWORK, CONFIG, data, tmp_path, validation=data)
     with pytest.raises(InvalidParameter):
         train(NETWORK, replace(CONFIG, device="abacus"), data, tmp_path, validation=data)
+    several = replace(CONFIG, device="meta", devices=2)
+    with pytest.raises(InvalidParameter, match="several devices"):
+        train(NETWORK, several, data, tmp_path, validation=data)
     assert list(tmp_path.iterdir()) == []

@@ -37,18 +37,27 @@ def train_command(
     workers: Annotated[int | None, typer.Option(help="Processes that load problems.")] = None,
     threads: Annotated[int | None, typer.Option(help="Threads of PyTorch on the CPU.")] = None,
     device: Annotated[str | None, typer.Option(help="PyTorch device, such as cuda.")] = None,
+    devices: Annotated[int | None, typer.Option(help="Number of devices to train on.")] = None,
+    initial: Annotated[
+        Path | None, typer.Option(help="Checkpoint whose weights a new training starts from.")
+    ] = None,
+    teacher: Annotated[
+        Path | None, typer.Option(help="Checkpoint of a larger network to imitate.")
+    ] = None,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print the outcome as JSON and nothing else.")
     ] = False,
 ) -> None:
     """Train a region proposal network; Ctrl-C stops after a step, the same command goes on.
 
+    The folder receives checkpoint.pt, log.csv and curve.png.
+
     Example: planformer train data runs/small --minutes 60
     """
-    from planformer.data.dataset import PathDataset
     from planformer.models import preset as network_preset
-    from planformer.training import config_for, train
+    from planformer.training import config_for, is_first_process, open_paths, train
 
+    stderr.quiet = not is_first_process()
     network = network_preset(preset)
     config = config_for(
         network,
@@ -62,18 +71,26 @@ def train_command(
         workers=workers,
         threads=threads,
         device=device,
+        devices=devices,
+        initial=None if initial is None else str(initial),
+        teacher=None if teacher is None else str(teacher),
     )
-    problems, validation = PathDataset(data / "train"), PathDataset(data / "val")
-    with _progress_bar(config) as show:
+    problems, validation = open_paths(data / "train"), open_paths(data / "val")
+    with _progress_bar(config, output) as show:
         result = train(network, config, problems, output, validation=validation, report=show)
+    if not is_first_process():
+        return
     _print_outcome(result, as_json=as_json)
     if not result.finished:
         raise typer.Exit(INTERRUPTED)
 
 
 @contextmanager
-def _progress_bar(config: TrainConfig) -> Iterator[Callable[[Progress], None]]:
-    """A bar on stderr towards the first limit; yields what shows the progress of each step."""
+def _progress_bar(config: TrainConfig, folder: Path) -> Iterator[Callable[[Progress], None]]:
+    """A bar on stderr towards the first limit; yields what shows the progress of each step.
+
+    Each validation is printed as well and drawn in the folder's curve.png.
+    """
     from rich import progress as bars
 
     columns = (bars.TextColumn("{task.description}"), bars.BarColumn(), bars.TimeElapsedColumn())
@@ -84,8 +101,16 @@ def _progress_bar(config: TrainConfig) -> Iterator[Callable[[Progress], None]]:
             bar.update(task, completed=_share(progress, config), description=_line(progress))
             for kind, metrics in (progress.metrics or {}).items():
                 stderr.print(f"step {progress.step}  {kind}: {_words(metrics)}", soft_wrap=True)
+            if progress.metrics:
+                _draw_curve(folder)
 
         yield show
+
+
+def _draw_curve(folder: Path) -> None:
+    from planformer.plotting import plot_training, save_picture
+
+    save_picture(plot_training(folder / "log.csv"), folder / "curve.png")
 
 
 def _share(progress: Progress, config: TrainConfig) -> float:

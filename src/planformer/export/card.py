@@ -30,7 +30,7 @@ def write_card(
     Its keys: ``version`` of the format; ``name``; ``sha256`` of the .onnx file; ``robot``,
     "point" or "dubins"; ``commit`` of the source they were exported with, null outside a
     checkout; ``preset``, null for a network of one's own; ``network``, see
-    `MPTConfig.to_dict`; ``scale``, read by `NetworkScale.from_dict`; ``log_odds_shift``; ``training``
+    `MPTConfig.to_dict`; `X
     and ``accuracy`` as given.
 
     Args:

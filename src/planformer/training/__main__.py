@@ -7,11 +7,12 @@ import sys
 from dataclasses import fields, replace
 from pathlib import Path
 
-from planformer.data.dataset import PathDataset
 from planformer.encoding import QueryKind
 from planformer.errors import PlanformerError
 from planformer.models import PRESETS, MPTConfig, preset
 from planformer.training.config import TrainConfig, config_for
+from planformer.training.devices import is_first_process
+from planformer.training.sources import open_paths
 from planformer.training.train import Progress, train
 
 _REPORT_EVERY = 20
@@ -25,14 +26,16 @@ def main() -> int:
         result = train(
             network,
             _config(options, network),
-            PathDataset(options.data / "train"),
+            open_paths(options.data / "train"),
             options.output,
-            validation=PathDataset(options.data / "val"),
+            validation=open_paths(options.data / "val"),
             report=_print,
         )
     except PlanformerError as error:
         print(f"error: {error}", file=sys.stderr)
         return 2
+    if not is_first_process():
+        return 0
     outcome = "finished" if result.finished else "interrupted; the same command resumes it"
     print(f"{result.checkpoint}: {result.step} steps, {outcome}")
     return 0 if result.finished else 130
@@ -55,6 +58,9 @@ def _parser() -> argparse.ArgumentParser:
         ("workers", int),
         ("threads", int),
         ("device", str),
+        ("devices", int),
+        ("initial", str),
+        ("teacher", str),
         ("validate-every", int),
         ("validation-problems", int),
     ):

@@ -42,12 +42,19 @@ class TrainConfig:
         warmup_steps: Steps of rising learning rate; the paper used 3200 with its recipe.
         positive_weight: Weight of positive anchors in the compact recipe; more connects more
             starts with their goals, in larger regions.
+        soft_labels: Metres beyond the labels' distance over which they fall from 1 to 0.
+        focal_gamma: Exponent of the focal loss in the compact recipe, which makes light of the
+            anchors that are right already; 0 = cross-entropy.
+        initial: Checkpoint whose weights a new training starts from; None = random weights. A
+            training that goes on ignores it.
+        teacher: Checkpoint of a network that this one learns to imitate, with half of the loss.
         augment: Flip, turn and reverse the problems at random.
         bfloat16: Compute in bfloat16 where it is safe (autocast).
         seed: Seed of the weights, the order of the problems and the augmentation.
         workers: Processes that prepare problems; 0 = this one does.
         threads: Threads that PyTorch may use on the CPU; None = its own choice.
         device: PyTorch device to train on.
+        devices: Number of such devices that share each batch, one process each.
         validate_every: Steps between validations.
         validation_problems: Number of validation problems, evenly spread over the data set.
         checkpoint_seconds: Seconds between checkpoints.
@@ -64,12 +71,17 @@ class TrainConfig:
     weight_decay: float = 0.02
     warmup_steps: int = 50
     positive_weight: float = 8.0
+    soft_labels: float = 0.0
+    focal_gamma: float = 0.0
+    initial: str | None = None
+    teacher: str | None = None
     augment: bool = True
     bfloat16: bool = True
     seed: int = 0
     workers: int = 1
     threads: int | None = None
     device: str = "cpu"
+    devices: int = 1
     validate_every: int = 200
     validation_problems: int = 240
     checkpoint_seconds: float = 120.0
@@ -82,8 +94,15 @@ class TrainConfig:
             raise InvalidParameter(f"recipe must be one of {valid}; got {self.recipe!r}") from None
         if self.steps is None and self.seconds is None:
             raise InvalidParameter("a training needs a number of steps or of seconds; got neither")
-        self._require_at_least(1, "batch_size steps validate_every validation_problems threads")
-        self._require_at_least(0, "warmup_steps seed workers weight_decay")
+        self._require_at_least(
+            1, "batch_size steps validate_every validation_problems threads devices"
+        )
+        self._require_at_least(0, "warmup_steps seed workers weight_decay soft_labels focal_gamma")
+        if self.batch_size % self.devices:
+            raise InvalidParameter(
+                f"batch_size must be a multiple of devices; got {self.batch_size} for "
+                f"{self.devices}"
+            )
         for name in ("seconds", "learning_rate", "positive_weight", "checkpoint_seconds"):
             value = getattr(self, name)
             if value is not None and not (math.isfinite(value) and value > 0):

@@ -20,45 +20,106 @@ def proposal_loss(proposal: Proposal, batch: Batch, config: TrainConfig) -> Tens
         config: Recipe and weights.
 
     Returns:
-        A scalar.
+        A scalar, the mean over the problems; anchors beyond their maps do not count.
     """
     logits = proposal.logits.float()
     if config.recipe is Recipe.PAPER:
-        loss = balanced_cross_entropy(logits, batch.positive)
+        loss = balanced_cross_entropy(logits, batch.positive, batch.inside)
     else:
-        weight = torch.tensor(config.positive_weight, device=logits.device)
-        loss = F.binary_cross_entropy_with_logits(logits, batch.positive, pos_weight=weight)
+        loss = weighted_cross_entropy(logits, batch, config)
     if proposal.heading is None:
         return loss
-    return loss + heading_loss(proposal.heading.float(), batch.heading)
+    of_heading = cosine_loss if config.recipe is Recipe.PAPER else von_mises_loss
+    return loss + of_heading(proposal.heading.float(), batch.heading)
 
 
-def balanced_cross_entropy(logits: Tensor, positive: Tensor) -> Tensor:
+def weighted_cross_entropy(logits: Tensor, batch: Batch, config: TrainConfig) -> Tensor:
+    """The compact recipe's loss: all anchors, the positive ones weighted up.
+
+    With `focal_gamma`, anchors count less the closer they are to their label: the focal loss
+    (Lin et al., ICCV 2017) in its form for soft labels (Li et al., Generalized focal loss, 2020).
+    """
+    labels = batch.positive
+    weight = torch.tensor(config.positive_weight, device=logits.device)
+    loss = F.binary_cross_entropy_with_logits(logits, labels, pos_weight=weight, reduction="none")
+    if config.focal_gamma:
+        loss = loss * (labels - logits.sigmoid()).abs() ** config.focal_gamma
+    return _mean_inside(loss, batch.inside)
+
+
+def balanced_cross_entropy(logits: Tensor, positive: Tensor, inside: Tensor) -> Tensor:
     """The paper's loss: all positive anchors and as many random negative ones.
 
     Args:
         logits: (B, 1, h, w).
         positive: (B, 1, h, w), 1 = positive.
+        inside: (B, 1, h, w), 0 = beyond the map.
 
     Returns:
-        The sum over problems of the mean cross-entropy over their chosen anchors.
+        The mean over problems of the mean cross-entropy over their chosen anchors. (The paper
+        sums over the problems, which is all the same to Adam.)
     """
-    labels = positive.flatten(1)
-    count = labels.sum(dim=1, keepdim=True)
-    draw = torch.rand_like(labels).masked_fill(labels > 0.5, 2.0)
-    rank = draw.argsort(dim=1).argsort(dim=1)  # the negatives in random order, then the positives
-    chosen = ((rank < count) | (labels > 0.5)).float()
+    labels, allowed = positive.flatten(1), inside.flatten(1) > 0.5
+    is_positive = (labels > 0.5) & allowed
+    count = is_positive.sum(dim=1, keepdim=True)
+    draw = torch.rand_like(labels).masked_fill(is_positive | ~allowed, 2.0)
+    rank = draw.argsort(dim=1).argsort(dim=1)  # the negatives in random order, then the others
+    chosen = (((rank < count) & allowed) | is_positive).float()
     loss = F.binary_cross_entropy_with_logits(logits.flatten(1), labels, reduction="none")
-    return ((loss * chosen).sum(dim=1) / chosen.sum(dim=1).clamp(min=1)).sum()
+    return ((loss * chosen).sum(dim=1) / chosen.sum(dim=1).clamp(min=1)).mean()
 
 
-def heading_loss(heading: Tensor, target: Tensor) -> Tensor:
-    """Mean of 1 - cos(angle between prediction and label) over the anchors that have a label.
+def imitation_loss(logits: Tensor, teacher: Tensor, inside: Tensor) -> Tensor:
+    """How far a network's probabilities are from a teacher's: their cross-entropy.
+
+    Hinton, Vinyals and Dean, Distilling the knowledge in a neural network, 2015, at temperature 1.
+
+    Args:
+        logits: (B, 1, h, w) of the network.
+        teacher: (B, 1, h, w) logits of the teacher.
+        inside: (B, 1, h, w), 0 = beyond the map.
+    """
+    targets = teacher.float().sigmoid()
+    loss = F.binary_cross_entropy_with_logits(logits.float(), targets, reduction="none")
+    return _mean_inside(loss, inside)
+
+
+def _mean_inside(loss: Tensor, inside: Tensor) -> Tensor:
+    return (loss * inside).sum() / inside.sum()
+
+
+def cosine_loss(heading: Tensor, target: Tensor) -> Tensor:
+    """The paper's loss of headings: 1 - cos(angle between prediction and label).
 
     Args:
         heading: (B, 2, h, w), any length.
-        target: (B, 2, h, w) unit vectors, zero where there is no label.
+        target: (B, 2, h, w) mean direction of the path near each anchor, zero where it has none.
+
+    Returns:
+        The mean over the anchors that have a label.
     """
-    labelled = target.square().sum(dim=1) > 0.5
-    cosine = F.cosine_similarity(heading, target, dim=1)
-    return ((1 - cosine) * labelled).sum() / labelled.sum().clamp(min=1)
+    return _mean_labelled(1 - F.cosine_similarity(heading, target, dim=1), target)
+
+
+def von_mises_loss(heading: Tensor, target: Tensor) -> Tensor:
+    """Negative log-likelihood of the headings near an anchor under a von Mises distribution.
+
+    The vector's direction is the distribution's mean and its length the concentration, so the
+    network also says how sure it is.
+
+    Args:
+        heading: (B, 2, h, w).
+        target: (B, 2, h, w) mean direction of the path near each anchor, zero where it has none;
+            the shorter, the more the path turns there.
+
+    Returns:
+        The mean over the anchors that have a label.
+    """
+    concentration = heading.norm(dim=1)
+    log_normaliser = torch.special.i0e(concentration).log() + concentration
+    return _mean_labelled(log_normaliser - (heading * target).sum(dim=1), target)
+
+
+def _mean_labelled(loss: Tensor, target: Tensor) -> Tensor:
+    labelled = target.square().sum(dim=1) > 0
+    return (loss * labelled).sum() / labelled.sum().clamp(min=1)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Any, NamedTuple, Protocol
+from functools import partial
+from typing import Any, NamedTuple
 
 import numpy as np
 import torch
@@ -11,10 +12,8 @@ from numpy.typing import NDArray
 from torch import Tensor
 from torch.utils.data import DataLoader, Dataset
 
-from planformer.data.dataset import PathProblem
-from planformer.data.recipe import MapRecipe
-from planformer.data.spec import DatasetSpec
 from planformer.encoding import (
+    LABEL_DISTANCE,
     NetworkScale,
     anchor_headings,
     anchor_labels,
@@ -23,87 +22,102 @@ from planformer.encoding import (
     network_map,
 )
 from planformer.errors import InvalidDataset
+from planformer.geometry import distance_to_polyline
 from planformer.processes import interrupts_left_to_parent
 from planformer.training.augmentation import Example, augment
 from planformer.training.config import TrainConfig
-
-
-class PathSource(Protocol):
-    """Solved problems on maps; `planformer.data.dataset.PathDataset` is one."""
-
-    @property
-    def spec(self) -> DatasetSpec:
-        """The settings that the data set was made with."""
-
-    @property
-    def recipes(self) -> Sequence[MapRecipe]:
-        """The maps."""
-
-    def __len__(self) -> int: ...
-
-    def __getitem__(self, index: int, /) -> PathProblem: ...
-
-    def blocked_map(self, map_id: int, /) -> NDArray[np.bool_]:
-        """(H, W) bool, where the robot's centre must not be."""
+from planformer.training.sources import PathSource, load_example
 
 
 class Batch(NamedTuple):
-    """Tensors of some problems.
+    """Tensors of some problems; smaller maps are padded to the largest of the batch.
 
     Attributes:
-        map: (B, 1, H, W) uint8, 1 = blocked.
+        map: (B, 1, H, W) uint8, 1 = blocked, as everything beyond a map is.
         query: (B, C, H/s, W/s) float32.
         positive: (B, 1, h, w) float32, 1 at the anchors near the path.
-        heading: (B, 2, h, w) float32 unit vectors at those anchors; (B, 0, h, w) in the plane.
+        heading: (B, 2, h, w) float32 direction of travel at those anchors; (B, 0, h, w) without
+            headings.
+        inside: (B, 1, h, w) float32, 1 at the anchors of the problem's own map, 0 beyond it.
     """
 
     map: Tensor
     query: Tensor
     positive: Tensor
     heading: Tensor
+    inside: Tensor
+
+    def to(self, device: torch.device) -> Batch:
+        """The batch on a device."""
+        return Batch(*(tensor.to(device, non_blocking=True) for tensor in self))
 
 
-def load_example(source: PathSource, index: int) -> Example:
-    """Problem number `index` with its map."""
-    problem = source[index]
-    blocked = source.blocked_map(problem.map_id)
-    resolution = source.recipes[problem.map_id].resolution
-    return Example(blocked, resolution, problem.start, problem.goal, problem.path)
+def encode_examples(
+    examples: Sequence[Example], scale: NetworkScale, *, soft_labels: float = 0.0
+) -> Batch:
+    """Tensors of some problems.
+
+    The maps are padded before the rest is made from them, so that a network sees the same as
+    when it guides a planner on a map with a blocked margin.
+
+    Args:
+        examples: One problem or more.
+        scale: The network's scale.
+        soft_labels: Metres beyond the labels' distance over which they fall from 1 to 0.
+    """
+    maps = [network_map(e.blocked, e.resolution, scale) for e in examples]
+    height, width = (max(sizes) for sizes in zip(*(pixels.shape for pixels in maps), strict=True))
+    anchors = anchor_points(height, width, scale)
+    rows = []
+    for example, pixels in zip(examples, maps, strict=True):
+        padded = np.ones((height, width), np.uint8)
+        padded[: pixels.shape[0], : pixels.shape[1]] = pixels
+        query = encode_query(padded, example.start, example.goal, scale)
+        inside = np.zeros(anchors.shape[:2], np.float32)
+        inside[: pixels.shape[0] // scale.stride, : pixels.shape[1] // scale.stride] = 1.0
+        positive = inside * _labels(anchors, example.path, soft_labels)
+        heading = inside * _headings(anchors, example.path, scale)
+        rows.append((padded[None], query, positive[None], heading, inside[None]))
+    return Batch(*(torch.from_numpy(np.stack(column)) for column in zip(*rows, strict=True)))
 
 
-def encode_example(example: Example, scale: NetworkScale) -> Batch:
-    """Tensors of one problem, without the batch axis."""
-    pixels = network_map(example.blocked, example.resolution, scale)
-    anchors = anchor_points(pixels.shape[0], pixels.shape[1], scale)
-    positive = anchor_labels(anchors, example.path)
-    heading = (
-        anchor_headings(anchors, example.path)
-        if scale.headings
-        else np.empty((0, *positive.shape), np.float32)
-    )
-    query = encode_query(pixels, example.start, example.goal, scale)
-    arrays = (pixels[None], query, positive[None].astype(np.float32), heading)
-    return Batch(*(torch.from_numpy(array) for array in arrays))
+def _labels(
+    anchors: NDArray[np.float64], path: NDArray[np.float64], softness: float
+) -> NDArray[np.float32]:
+    """(h, w) labels in [0, 1]."""
+    if softness == 0.0:
+        return anchor_labels(anchors, path).astype(np.float32)
+    beyond = distance_to_polyline(anchors, path[:, :2]) - LABEL_DISTANCE
+    labels: NDArray[np.float32] = np.clip(1.0 - beyond / softness, 0.0, 1.0).astype(np.float32)
+    return labels.reshape(anchors.shape[:2])
 
 
-class Samples(Dataset[Batch]):
-    """Encoded problems by (epoch, index); the same key gives the same augmentation.
+def _headings(
+    anchors: NDArray[np.float64], path: NDArray[np.float64], scale: NetworkScale
+) -> NDArray[np.float32]:
+    """(2, h, w) labels of a network with headings; (0, h, w) otherwise."""
+    if scale.headings:
+        return anchor_headings(anchors, path)
+    return np.empty((0, *anchors.shape[:2]), np.float32)
+
+
+class Samples(Dataset[Example]):
+    """Problems by (epoch, index); the same key gives the same augmentation.
 
     Args:
         source: The problems.
-        scale: The network's scale.
         seed: Seed of the augmentation; None = as stored.
     """
 
-    def __init__(self, source: PathSource, scale: NetworkScale, seed: int | None = None) -> None:
-        self._source, self._scale, self._seed = source, scale, seed
+    def __init__(self, source: PathSource, seed: int | None = None) -> None:
+        self._source, self._seed = source, seed
 
-    def __getitem__(self, key: tuple[int, int]) -> Batch:
+    def __getitem__(self, key: tuple[int, int]) -> Example:
         epoch, index = key
         example = load_example(self._source, index)
-        if self._seed is not None:
-            example = augment(example, np.random.default_rng([self._seed, epoch, index]))
-        return encode_example(example, self._scale)
+        if self._seed is None:
+            return example
+        return augment(example, np.random.default_rng([self._seed, epoch, index]))
 
 
 class ResumableBatches:
@@ -114,41 +128,59 @@ class ResumableBatches:
         batch_size: Problems a batch; the rest of an epoch that does not fill one is left out.
         seed: Seed of the order.
         step: Number of batches to skip.
+        share: This process and the number of processes that take an equal part of each batch.
 
     Raises:
         InvalidDataset: There are fewer problems than a batch needs.
     """
 
-    def __init__(self, problems: int, batch_size: int, *, seed: int, step: int = 0) -> None:
+    def __init__(
+        self,
+        problems: int,
+        batch_size: int,
+        *,
+        seed: int,
+        step: int = 0,
+        share: tuple[int, int] = (0, 1),
+    ) -> None:
         if problems < batch_size:
             raise InvalidDataset(
                 f"a batch needs {batch_size} problems; the data set has {problems}"
             )
         self._problems, self._batch_size = problems, batch_size
-        self._seed, self._step = seed, step
+        self._seed, self._step, self._share = seed, step, share
 
     def __iter__(self) -> Iterator[list[tuple[int, int]]]:
+        rank, count = self._share
         in_epoch = self._problems // self._batch_size
         epoch, skipped = divmod(self._step, in_epoch)
         while True:
             order = np.random.default_rng([self._seed, epoch]).permutation(self._problems)
             for batch in range(skipped, in_epoch):
                 indices = order[batch * self._batch_size :][: self._batch_size]
-                yield [(epoch, int(index)) for index in indices]
+                yield [(epoch, int(index)) for index in indices[rank::count]]
             epoch, skipped = epoch + 1, 0
 
 
 def training_batches(
-    source: PathSource, scale: NetworkScale, config: TrainConfig, *, step: int
+    source: PathSource,
+    scale: NetworkScale,
+    config: TrainConfig,
+    *,
+    step: int,
+    share: tuple[int, int] = (0, 1),
 ) -> Iterator[Batch]:
     """The batches of a training from a step on, prepared ahead by worker processes."""
-    samples = Samples(source, scale, config.seed if config.augment else None)
-    order = ResumableBatches(len(source), config.batch_size, seed=config.seed, step=step)
+    order = ResumableBatches(
+        len(source), config.batch_size, seed=config.seed, step=step, share=share
+    )
     options: dict[str, Any] = {"prefetch_factor": 4} if config.workers else {}
     loader = DataLoader(
-        samples,
+        Samples(source, config.seed if config.augment else None),
         batch_sampler=order,
+        collate_fn=partial(encode_examples, scale=scale, soft_labels=config.soft_labels),
         num_workers=config.workers,
+        pin_memory=torch.device(config.device).type == "cuda",
         generator=torch.Generator(),  # the loader must not draw from the training's
         **options,
     )

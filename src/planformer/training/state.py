@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -11,7 +12,7 @@ from typing import Any
 import torch
 from torch import nn, optim
 
-from planformer.errors import InvalidWeights
+from planformer.errors import InvalidWeights, WeightsMismatch
 from planformer.files import whole_file
 from planformer.models import (
     MPTConfig,
@@ -25,6 +26,14 @@ from planformer.training.validation import Metrics
 
 CHECKPOINT = "checkpoint.pt"
 LOG = "log.csv"
+
+_MAY_CHANGE = (
+    "bfloat16 checkpoint_seconds device devices initial seconds steps threads "
+    "validate_every validation_problems workers"
+)
+"""Settings that may be others when a training goes on: they do not say what it learns."""
+
+_NEW_FOLDER = ", with this file as the initial weights to start from"
 
 
 @dataclass
@@ -62,7 +71,6 @@ class TrainState:
             self.network,
             self.model,
             optimizer=self.optimizer.state_dict(),
-            random_state=torch.get_rng_state(),
             training=config.to_dict(),
             data=self.data,
             step=self.step,
@@ -74,40 +82,92 @@ class TrainState:
                 file.write(_csv(self.history))
 
 
-def new_state(network: MPTConfig, config: TrainConfig, data: dict[str, Any]) -> TrainState:
-    """Fresh weights, drawn from PyTorch's random state."""
-    model = _placed(create_model(network), config)
+def new_state(
+    network: MPTConfig, config: TrainConfig, data: dict[str, Any], device: torch.device
+) -> TrainState:
+    """A training at its start, with random weights or those of `config.initial`.
+
+    Raises:
+        InvalidWeights: The initial checkpoint is damaged or of another network.
+    """
+    if config.initial is None:
+        model: nn.Module = create_model(network)
+    else:
+        found, model, _ = load_checkpoint(Path(config.initial))
+        what = f"the initial weights {config.initial} are of another network"
+        _require_same(what, _flat(found), _flat(network), "start from the same network's")
+    model = _placed(model, device)
     return TrainState(network, model, create_optimizer(model, config), data)
 
 
 def resumed_state(
-    path: Path, network: MPTConfig, config: TrainConfig, data: dict[str, Any]
+    path: Path,
+    network: MPTConfig,
+    config: TrainConfig,
+    data: dict[str, Any],
+    device: torch.device,
 ) -> TrainState:
-    """Read a checkpoint and restore PyTorch's random state.
+    """Read a checkpoint.
 
     Raises:
-        InvalidWeights: The file is no checkpoint of a training of this network.
+        InvalidWeights: The file is damaged or no checkpoint of a training.
+        WeightsMismatch: It is of another network, of other data or of settings that would make
+            the training another one.
     """
     found, model, stored = load_checkpoint(path)
-    if found != network:
-        raise InvalidWeights(
-            f"{path} holds another network, {found}; asked for {network}: choose another folder"
-        )
-    model = _placed(model, config)
-    optimizer = create_optimizer(model, config)
     try:
+        settings = {k: v for k, v in stored["training"].items() if k not in _MAY_CHANGE.split()}
+        for what, theirs, ours, remedy in (
+            ("of another network", _flat(found), _flat(network), ""),
+            ("of other data", stored["data"], data, _NEW_FOLDER),
+            ("of other settings", settings, config.to_dict(), _NEW_FOLDER),
+        ):
+            _require_same(f"{path} is {what}", theirs, ours, "choose another folder" + remedy)
+        model = _placed(model, device)
+        optimizer = create_optimizer(model, config)
         optimizer.load_state_dict(stored["optimizer"])
-        torch.set_rng_state(stored["random_state"])
         progress = {name: stored[name] for name in ("step", "seconds", "history")}
-    except (KeyError, ValueError) as error:
-        raise InvalidWeights(f"{path} is no checkpoint of this training: {error}") from error
+    except WeightsMismatch:
+        raise
+    except (AttributeError, KeyError, TypeError, ValueError) as error:
+        raise InvalidWeights(f"{path} is no checkpoint of a training: {error!r}") from error
     return TrainState(network, model, optimizer, data, **progress)
 
 
-def _placed(model: nn.Module, config: TrainConfig) -> nn.Module:
+def load_teacher(path: Path, network: MPTConfig, device: torch.device) -> nn.Module:
+    """Read a network to imitate, ready to be asked.
+
+    Raises:
+        InvalidWeights: The file is damaged or no checkpoint.
+        WeightsMismatch: The teacher does not see the world as the network does.
+    """
+    found, model, _ = load_checkpoint(path)
+    theirs, ours = found.scale.to_dict(), network.scale.to_dict()
+    _require_same(f"the teacher {path} sees another input", theirs, ours, "choose another teacher")
+    return _placed(model, device).eval().requires_grad_(False)
+
+
+def _flat(network: MPTConfig) -> dict[str, Any]:
+    values = network.to_dict()
+    return {**values.pop("body"), **values}
+
+
+def _require_same(
+    what: str, theirs: Mapping[str, Any], ours: Mapping[str, Any], remedy: str
+) -> None:
+    """Compare what both name; what only one does is of another version or kind."""
+    names = [name for name in theirs if name in ours and theirs[name] != ours[name]]
+    if names:
+        there, here = (
+            ", ".join(f"{name} {values[name]!r:.80}" for name in names) for values in (theirs, ours)
+        )
+        raise WeightsMismatch(f"{what}: {there}; asked for {here}: {remedy}")
+
+
+def _placed(model: nn.Module, device: torch.device) -> nn.Module:
     """Move a network to its device, in the layout whose convolutions are the fastest on a CPU."""
     layout = {"memory_format": torch.channels_last}
-    return model.to(config.device).to(**layout)  # type: ignore[call-overload,no-any-return]
+    return model.to(device).to(**layout)  # type: ignore[call-overload,no-any-return]
 
 
 def _csv(rows: list[dict[str, Any]]) -> bytes:

@@ -3,25 +3,36 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 import time
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
 import torch
-from torch import nn
+from torch import Tensor, nn
 
-from planformer.errors import InvalidParameter
+from planformer.errors import TrainingDiverged
+from planformer.files import remove_unfinished
 from planformer.models import MPTConfig
 from planformer.training.config import Recipe, TrainConfig
+from planformer.training.devices import Devices
 from planformer.training.interrupt import GracefulInterrupt
-from planformer.training.losses import proposal_loss
+from planformer.training.losses import imitation_loss, proposal_loss
 from planformer.training.optimizer import learning_rate
-from planformer.training.samples import Batch, PathSource, training_batches
-from planformer.training.state import CHECKPOINT, TrainState, new_state, resumed_state
+from planformer.training.samples import Batch, training_batches
+from planformer.training.sources import PathSource
+from planformer.training.state import (
+    CHECKPOINT,
+    TrainState,
+    load_teacher,
+    new_state,
+    resumed_state,
+)
 from planformer.training.validation import Metrics, validate
 
-_MAX_GRADIENT_NORM = 1.0
+_MAX_GRADIENT_NORM = {Recipe.COMPACT: 1.0, Recipe.PAPER: math.inf}
 
 
 @dataclass(frozen=True)
@@ -72,9 +83,13 @@ def train(
     """Train a network, or go on with a training that was stopped.
 
     The folder receives ``checkpoint.pt`` and ``log.csv``, each replaced as a whole. Where it holds
-    a checkpoint the training goes on from there; with the same settings and a number of steps on
-    one device, an interrupted training ends with the weights of an uninterrupted one. Ctrl-C stops
-    after the current step.
+    a checkpoint the training goes on from there, however it was stopped; with a number of steps, on
+    a CPU, it ends with the weights of an uninterrupted one, bit by bit. Ctrl-C stops after the
+    current step.
+
+    With `config.devices` > 1 the program runs once for each device, with the same arguments, and
+    all of its processes train here together. The first alone validates, reports and writes (see
+    `is_first_process`). A program can do so once.
 
     Args:
         network: The network.
@@ -89,60 +104,90 @@ def train(
 
     Raises:
         InvalidDataset: There are fewer problems than a batch needs.
-        InvalidWeights: The folder's checkpoint is damaged or of another network.
-        InvalidParameter: Recipe or device do not fit.
+        InvalidParameter: The device is not usable.
+        InvalidWeights: The folder's checkpoint, the initial weights or the teacher are damaged.
+        WeightsMismatch: They do not fit: another network, other data, other settings.
+        TrainingDiverged: The loss or its gradient is infinite or no number; the folder keeps the
+            last checkpoint.
+        MissingExtra: More than one device, and Lightning Fabric is not installed.
     """
     if config.threads is not None:
         torch.set_num_threads(config.threads)
     folder = Path(output)
-    with torch.random.fork_rng(devices=[]), GracefulInterrupt() as interrupt:
+    with (
+        GracefulInterrupt() as interrupt,
+        torch.random.fork_rng(devices=[]),
+        Devices(config) as devices,
+    ):
         torch.manual_seed(config.seed)
-        state = _state(folder, network, config, data)
-        run = _Run(state, config, data, validation, folder, report or (lambda progress: None))
-        return run.until_done(interrupt)
+        state = _state(folder, network, config, data, devices)
+        run = _Run(state, config, folder, devices, validation, report)
+        share = (devices.rank, devices.count)
+        return run.until_done(
+            training_batches(data, network.scale, config, step=state.step, share=share), interrupt
+        )
 
 
-def _state(folder: Path, network: MPTConfig, config: TrainConfig, data: PathSource) -> TrainState:
+def _state(
+    folder: Path, network: MPTConfig, config: TrainConfig, data: PathSource, devices: Devices
+) -> TrainState:
     description = dataclasses.asdict(data.spec)
-    try:
-        torch.empty(0, device=config.device)
-    except (RuntimeError, AssertionError) as error:
-        raise InvalidParameter(f"device {config.device!r} is not usable: {error}") from error
+    if devices.is_first:
+        remove_unfinished(folder)
     if (folder / CHECKPOINT).exists():
-        return resumed_state(folder / CHECKPOINT, network, config, description)
-    return new_state(network, config, description)
+        return resumed_state(folder / CHECKPOINT, network, config, description, devices.device)
+    return new_state(network, config, description, devices.device)
 
 
-@dataclass
 class _Run:
     """One call of `train`."""
 
-    state: TrainState
-    config: TrainConfig
-    data: PathSource
-    validation: PathSource
-    folder: Path
-    report: Callable[[Progress], None]
-    metrics: dict[str, Metrics] = field(default_factory=dict)
+    def __init__(
+        self,
+        state: TrainState,
+        config: TrainConfig,
+        folder: Path,
+        devices: Devices,
+        validation: PathSource,
+        report: Callable[[Progress], None] | None,
+    ) -> None:
+        self.state, self.config, self.folder, self.devices = state, config, folder, devices
+        self.validation, self.report = validation, report
+        self.teacher = (
+            None
+            if config.teacher is None
+            else load_teacher(Path(config.teacher), state.network, devices.device)
+        )
+        self.model = devices.synchronised(state.model)
+        self.began = time.perf_counter() - state.seconds
+        self.metrics: dict[str, Metrics] = {}
 
-    def until_done(self, interrupt: GracefulInterrupt) -> TrainResult:
-        state, config, scale = self.state, self.config, self.state.network.scale
-        batches = training_batches(self.data, scale, config, step=state.step)
-        began, saved = time.perf_counter() - state.seconds, state.seconds
-        while not (finished := self._at_limit()) and not interrupt.requested:
+    def until_done(self, batches: Iterator[Batch], interrupt: GracefulInterrupt) -> TrainResult:
+        state, config = self.state, self.config
+        saved = state.seconds
+        while not (finished := self._at_limit()) and not self._any(interrupt.requested):
             rate = learning_rate(config, step=state.step, seconds=state.seconds)
             loss = self._step(next(batches), rate)
             state.step += 1
-            state.seconds = time.perf_counter() - began
-            is_due = state.step % config.validate_every == 0 or self._at_limit()
-            validated = self._validate(loss, rate) if is_due else None
-            state.seconds = time.perf_counter() - began
-            if validated or state.seconds - saved > config.checkpoint_seconds:
-                state.save(self.folder, config)
+            self._read_clock()
+            metrics = None
+            if state.step % config.validate_every == 0 or self._at_limit():
+                metrics = self._validate(loss, rate)
+                self._read_clock()
+            if metrics or state.seconds - saved > config.checkpoint_seconds:
+                self._save()
                 saved = state.seconds
-            self.report(Progress(state.step, state.seconds, rate, loss, validated))
-        state.save(self.folder, config)
+            self._report(Progress(state.step, state.seconds, rate, loss, metrics))
+        self._save()
         return TrainResult(self.folder / CHECKPOINT, state.step, finished, self.metrics)
+
+    def _read_clock(self) -> None:
+        """Set the training time, the same on all devices."""
+        (self.state.seconds,) = self.devices.mean(time.perf_counter() - self.began)
+
+    def _any(self, flag: bool) -> bool:
+        (share,) = self.devices.mean(flag)
+        return share > 0
 
     def _at_limit(self) -> bool:
         steps, seconds = self.config.steps, self.config.seconds
@@ -152,27 +197,65 @@ class _Run:
 
     def _step(self, batch: Batch, rate: float) -> float:
         """Take an optimiser step; returns the loss before it."""
-        config, model, optimizer = self.config, self.state.model, self.state.optimizer
-        model.train()
+        config, optimizer = self.config, self.state.optimizer
+        self.model.train()
+        torch.manual_seed(self._seed())
         for group in optimizer.param_groups:
             group["lr"] = rate
-        batch = Batch(*(tensor.to(config.device) for tensor in batch))
-        device_type = torch.device(config.device).type
-        with torch.autocast(device_type, torch.bfloat16, enabled=config.bfloat16):
-            proposal = model(batch.map.float(), batch.query)
-        loss = proposal_loss(proposal, batch, config)
+        loss = self._loss(batch.to(self.devices.device))
         optimizer.zero_grad(set_to_none=True)
         loss.backward()  # type: ignore[no-untyped-call]
-        if config.recipe is Recipe.COMPACT:
-            nn.utils.clip_grad_norm_(model.parameters(), _MAX_GRADIENT_NORM)
+        norm = nn.utils.clip_grad_norm_(
+            self.state.model.parameters(), _MAX_GRADIENT_NORM[config.recipe]
+        )
+        (mean,) = self.devices.mean(float(loss.detach()))
+        if not math.isfinite(mean + float(norm)):
+            raise self._diverged(mean, rate)
         optimizer.step()
-        return float(loss.detach())
+        return mean
 
-    def _validate(self, loss: float, rate: float) -> dict[str, Metrics]:
+    def _seed(self) -> int:
+        """Seed of a step, so that a resumed training needs no random state of any device."""
+        entropy = [self.config.seed, self.state.step, self.devices.rank]
+        return int(np.random.SeedSequence(entropy).generate_state(1, np.uint64)[0] >> 1)
+
+    def _loss(self, batch: Batch) -> Tensor:
+        occupancy = batch.map.float()
+        with torch.autocast(occupancy.device.type, torch.bfloat16, enabled=self.config.bfloat16):
+            proposal = self.model(occupancy, batch.query)
+            taught = None if self.teacher is None else self.teacher(occupancy, batch.query)
+        loss = proposal_loss(proposal, batch, self.config)
+        if taught is None:
+            return loss
+        return 0.5 * loss + 0.5 * imitation_loss(proposal.logits, taught.logits, batch.inside)
+
+    def _diverged(self, loss: float, rate: float) -> TrainingDiverged:
+        file, step = self.folder / CHECKPOINT, self.state.step
+        kept = (
+            f"{file} holds the last good state" if file.exists() else "there is no checkpoint yet"
+        )
+        return TrainingDiverged(
+            f"loss {loss} or its gradient is no finite number after {step} steps, at a learning "
+            f"rate of {rate:.3g}; {kept}: try a smaller learning rate in another folder",
+            step=step,
+            learning_rate=rate,
+        )
+
+    def _validate(self, loss: float, rate: float) -> dict[str, Metrics] | None:
+        """Measure the network; the other processes wait at the next step's gradients."""
+        if not self.devices.is_first:
+            return None
         state = self.state
-        with torch.random.fork_rng(devices=[]):  # measuring must not change the training
-            torch.manual_seed(0)
-            metrics = validate(state.model, self.validation, state.network.scale, self.config)
+        torch.manual_seed(0)
+        metrics = validate(state.model, self.validation, state.network.scale, self.config)
         state.record(metrics, learning_rate=rate, train_loss=loss)
         self.metrics = metrics
         return metrics
+
+    def _save(self) -> None:
+        if self.devices.is_first:
+            self.state.save(self.folder, self.config)
+
+    def _report(self, progress: Progress) -> None:
+        if self.report and self.devices.is_first:
+            self.report(progress)

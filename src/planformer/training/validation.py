@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Iterator
 
 import numpy as np
 import torch
 from numpy.typing import NDArray
 from torch import nn
-from torch.utils.data import default_collate
 
 from planformer.encoding import NetworkScale, network_map, region_mask
 from planformer.training.augmentation import Example
-from planformer.training.config import Recipe, TrainConfig
+from planformer.training.config import TrainConfig
 from planformer.training.connectivity import connected
 from planformer.training.losses import proposal_loss
-from planformer.training.samples import Batch, PathSource, encode_example, load_example
+from planformer.training.samples import encode_examples
+from planformer.training.sources import PathSource, load_example
 
 THRESHOLD = 0.5
 """Probability from which an anchor belongs to the region, as in the paper."""
@@ -34,24 +33,37 @@ def validate(
         model: The network; its mode is left as it was.
         source: Problems on maps that the network has not seen.
         scale: The network's scale.
-        config: Number of problems, batch size, loss and device.
+        config: Number of problems, batch size and loss.
 
     Returns:
         For each kind of map and for "all": "problems"; "loss"; "precision" and "recall" of the
         anchors; "connected", the share of problems whose start and goal are joined inside region
         and free space; "region", the region's mean share of the map's area.
     """
+    kinds, rows = measurements(model, source, scale, config)
+    parts = {"all": rows, **{kind: rows[kinds == kind] for kind in np.unique(kinds)}}
+    return {str(kind): _summary(part) for kind, part in sorted(parts.items())}
+
+
+@torch.no_grad()
+def measurements(
+    model: nn.Module, source: PathSource, scale: NetworkScale, config: TrainConfig
+) -> tuple[NDArray[np.str_], NDArray[np.float64]]:
+    """What `validate` averages.
+
+    Returns:
+        (N,) kind of each problem's map and (N, 6) rows: loss; number of selected anchors, of
+        positive ones and of those that are both; connected; region share.
+    """
     was_training = model.training
     model.eval()
-    collected: dict[str, list[NDArray[np.float64]]] = defaultdict(list)
+    kinds: list[str] = []
+    rows: list[NDArray[np.float64]] = []
     for indices in _index_batches(len(source), config):
-        examples = [load_example(source, index) for index in indices]
-        for index, row in zip(indices, _measure(model, examples, scale, config), strict=True):
-            kind = source.recipes[source[index].map_id].kind
-            collected[kind].append(row)
-            collected["all"].append(row)
+        kinds += [source.recipes[source[index].map_id].kind for index in indices]
+        rows += _measure(model, [load_example(source, i) for i in indices], scale, config)
     model.train(was_training)
-    return {kind: _summary(np.array(rows)) for kind, rows in sorted(collected.items())}
+    return np.array(kinds), np.array(rows)
 
 
 def _index_batches(available: int, config: TrainConfig) -> Iterator[list[int]]:
@@ -64,19 +76,25 @@ def _index_batches(available: int, config: TrainConfig) -> Iterator[list[int]]:
 def _measure(
     model: nn.Module, examples: list[Example], scale: NetworkScale, config: TrainConfig
 ) -> list[NDArray[np.float64]]:
-    """A row a problem: loss, selected, positive and both anchors, connected, region share."""
-    encoded = [encode_example(example, scale) for example in examples]
-    batch = Batch(*(tensor.to(config.device) for tensor in default_collate(encoded)))
+    """A row a problem; its loss is that of its batch."""
+    batch = encode_examples(examples, scale).to(next(model.parameters()).device)
     proposal = model(batch.map.float(), batch.query)
-    loss = float(proposal_loss(proposal, batch, config)) / (
-        len(examples) if config.recipe is Recipe.PAPER else 1
+    loss = float(proposal_loss(proposal, batch, config))
+    selected, positive, inside = (
+        tensor[:, 0].cpu().numpy()
+        for tensor in (
+            proposal.logits.sigmoid() >= THRESHOLD,
+            batch.positive > THRESHOLD,
+            batch.inside > 0,
+        )
     )
-    selected = (proposal.logits[:, 0].sigmoid() >= THRESHOLD).cpu().numpy()
-    positive = batch.positive[:, 0].cpu().numpy() > THRESHOLD
-    return [
-        np.array([loss, s.sum(), p.sum(), (s & p).sum(), *region_quality(example, s, scale)])
-        for example, s, p in zip(examples, selected, positive, strict=True)
-    ]
+    rows = []
+    for example, s, p, of_map in zip(examples, selected, positive, inside, strict=True):
+        height, width = of_map[:, 0].sum(), of_map[0].sum()
+        s, p = s[:height, :width], p[:height, :width]
+        quality = region_quality(example, s, scale)
+        rows.append(np.array([loss, s.sum(), p.sum(), (s & p).sum(), *quality]))
+    return rows
 
 
 def region_quality(

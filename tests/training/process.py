@@ -1,0 +1,34 @@
+"""A training as a process of its own, to be killed or to start others: FOLDER STEPS DEVICES."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from conftest import StraightPaths
+from planformer.models import CompactBody, MPTConfig
+from planformer.training import TrainConfig, train
+
+NETWORK = MPTConfig(CompactBody(width=24, stem=8, groups=1, blocks=1, heads=1, window=6))
+
+
+def run(folder, steps, devices=1):
+    config = TrainConfig(
+        steps=steps,
+        devices=devices,
+        batch_size=4,
+        workers=0,
+        threads=1,
+        bfloat16=False,
+        validate_every=10,
+        validation_problems=2,
+        warmup_steps=2,
+        checkpoint_seconds=1e-6,
+    )
+    validation = StraightPaths(2, seed=1)
+    return train(NETWORK, config, StraightPaths(18), Path(folder), validation=validation)
+
+
+if __name__ == "__main__":
+    folder, steps, devices = sys.argv[1:]
+    print(run(folder, int(steps), int(devices)).step)
