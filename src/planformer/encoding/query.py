@@ -111,13 +111,7 @@ def _distance_channels(
     pixels: NDArray[np.uint8], states: tuple[NDArray[np.float64], ...], scale: NetworkScale
 ) -> NDArray[np.float64]:
     """(3, h, w): how far from the start, how far from the goal, how small the detour."""
-    side = scale.query_stride
-    shape = (pixels.shape[0] // side, pixels.shape[1] // side)
-    cells = tuple(_cell(state, shape, scale) for state in states)
-    from_start, from_goal = _distances(passages(pixels, side), cells)
-    if not np.isfinite(from_start[cells[1]]):
-        # The way is too narrow or too crooked for straight steps: any free pixel opens a cell.
-        from_start, from_goal = _distances(_fully_open(_free_share(pixels, side) > 0.0), cells)
+    from_start, from_goal = _distances(pixels, states, scale)
     far = DISTANCE_SCALE / scale.query_resolution
     via = from_start + from_goal
     shortest = via.min()
@@ -127,70 +121,39 @@ def _distance_channels(
     )
 
 
-def _cell(
-    state: NDArray[np.float64], shape: tuple[int, ...], scale: NetworkScale
-) -> tuple[int, int]:
-    """(row, col) of the query pixel of a state, the nearest one for a state outside."""
+def _distances(
+    pixels: NDArray[np.uint8], states: tuple[NDArray[np.float64], ...], scale: NetworkScale
+) -> list[NDArray[np.float64]]:
+    """(h, w) geodesic distances in query pixels from each state to the nearest point of a pixel.
+
+    The waves run at the map's full resolution: cells as coarse as the query's would close narrow
+    gaps or open thin walls, and the shortest way often leads through a narrow gap.
+    """
+    side = scale.query_stride
+    blocked = pixels > 0
+    start, goal = (_cell(state, pixels.shape, scale.resolution) for state in states)
+    from_start = wavefront(blocked, start)
+    if np.isfinite(from_start[goal]):
+        waves = from_start, wavefront(blocked, goal)
+        return [_least(wave, side).astype(np.float64) / side for wave in waves]
+    # Resampling has closed the way, or there is none: any free pixel opens a whole query pixel.
+    closed = _free_share(pixels, side) == 0.0
+    cells = (_cell(state, closed.shape, scale.query_resolution) for state in states)
+    return [wavefront(closed, cell).astype(np.float64) for cell in cells]
+
+
+def _least(values: NDArray[np.float32], side: int) -> NDArray[np.float32]:
+    """The smallest value in each square of `side` pixels."""
+    height, width = values.shape
+    squares = values.reshape(height // side, side, width // side, side)
+    least: NDArray[np.float32] = squares.min(axis=1).min(axis=2)  # contiguous axes first: faster
+    return least
+
+
+def _cell(state: NDArray[np.float64], shape: tuple[int, ...], resolution: float) -> tuple[int, int]:
+    """(row, col) of the cell of a state, the nearest one for a state outside."""
     row, col = (
-        int(np.clip(np.floor(v / scale.query_resolution), 0, size - 1))
+        int(np.clip(np.floor(v / resolution), 0, size - 1))
         for v, size in zip(state[1::-1], shape, strict=True)
     )
     return row, col
-
-
-def passages(pixels: NDArray[np.uint8], side: int) -> NDArray[np.bool_]:
-    """Where a coarse grid can be walked without stepping through a wall, however thin.
-
-    Two neighbouring cells are joined when a straight line of pixels from the middle of one to the
-    middle of the other is free. Judging cells alone would either open thin walls that run along
-    the border of two cells or close narrow passages.
-
-    Args:
-        pixels: (H, W) uint8 network map, 1 = blocked.
-        side: Pixels a cell; divides H and W.
-
-    Returns:
-        (2 h - 1, 2 w - 1) bool lattice, True = open, with the cells at even indices, the steps
-        between them at odd ones and the diagonal steps where both indices are odd.
-    """
-    right, up = _joined(pixels, side), _joined(pixels.T, side).T
-    height, width = pixels.shape[0] // side, pixels.shape[1] // side
-    lattice = np.ones((2 * height - 1, 2 * width - 1), bool)
-    lattice[::2, 1::2] = right
-    lattice[1::2, ::2] = up
-    lattice[1::2, 1::2] = right[:-1] & right[1:] & up[:, :-1] & up[:, 1:]
-    return lattice
-
-
-def _joined(pixels: NDArray[np.uint8], side: int) -> NDArray[np.bool_]:
-    """(h, w - 1) bool: whether a free row of pixels joins a cell with the one to its right."""
-    height, width = pixels.shape
-    sums = np.zeros((height, width + 1), np.int32)
-    np.cumsum(pixels, axis=1, out=sums[:, 1:])
-    first = np.arange(width // side - 1) * side + side // 2
-    clear = sums[:, first + side + 1] == sums[:, first]
-    joined: NDArray[np.bool_] = clear.reshape(height // side, side, -1).any(axis=1)
-    return joined
-
-
-def _fully_open(cells: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """The lattice of `passages` in which all steps between open cells are open."""
-    height, width = cells.shape
-    wide = np.ones((height, 2 * width - 1), bool)
-    wide[:, ::2] = cells
-    wide[:, 1::2] = cells[:, :-1] & cells[:, 1:]
-    lattice = np.ones((2 * height - 1, 2 * width - 1), bool)
-    lattice[::2] = wide
-    lattice[1::2] = wide[:-1] & wide[1:]
-    return lattice
-
-
-def _distances(
-    lattice: NDArray[np.bool_], cells: tuple[tuple[int, int], ...]
-) -> list[NDArray[np.float64]]:
-    """(h, w) geodesic distances in cells from each of some cells."""
-    blocked = ~lattice
-    return [
-        0.5 * wavefront(blocked, (2 * row, 2 * col))[::2, ::2].astype(np.float64)
-        for row, col in cells
-    ]

@@ -18,7 +18,6 @@ from planformer.guidance.region import Region, make_region
 from planformer.guidance.weights import Weights, read_weights, weights_path
 from planformer.planning import Problem
 
-
 _CONCENTRATIONS = (0.3, 100.0)
 """Bounds of the concentration: yaw deviations from 0.1 rad to nearly any yaw."""
 

@@ -56,7 +56,7 @@ class SamplingRegion:
             or not (np.isfinite(deviations) & (deviations > 0.0)).all()
         ):
             raise InvalidParameter(
-                f"yaw_deviations must be {len(self.anchors)} finite values > 0 that go with headings"
+                f"yaw_deviations must be {len(self.anchors)} finite values > 0 and go with headings"
             )
         sizes = (self.half_width, self.area)
         if not (np.isfinite(sizes).all() and min(sizes) > 0.0):
