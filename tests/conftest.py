@@ -2,7 +2,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import hypothesis
 import pytest
+
+# How long an example takes says nothing on a busy machine.
+hypothesis.settings.register_profile("planformer", deadline=None)
+hypothesis.settings.load_profile("planformer")
 
 
 @pytest.fixture(scope="session")
