@@ -24,7 +24,7 @@ from planformer.planning import Problem
 IDEAL = "ideal"
 """The region of a network that makes no mistake."""
 WAVEFRONT = "wavefront"
-"""A corridor along the shortest ways of a coarse grid search: what needs no learning."""
+"""A corridor along the shortest ways of a grid search: what needs no learning."""
 
 THRESHOLDS: dict[str, float | None] = {"fixed": PAPER_THRESHOLD, "connecting": None}
 """Rules for the threshold: the paper's value, or the one that connects start and goal."""
@@ -69,7 +69,7 @@ def _pixels(size: float) -> int:
 
 @dataclass(frozen=True)
 class WavefrontProposer:
-    """Selects the anchors near the shortest ways of the coarse search that feeds the networks.
+    """Selects the anchors near the shortest ways of the grid search that feeds the networks.
 
     The probability of an anchor is the largest exp(-detour / 0.75 m) of the 0.25 m cells round
     it, so the threshold 0.5 allows detours of half a metre.
