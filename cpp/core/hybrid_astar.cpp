@@ -23,7 +23,7 @@ constexpr double kStep = 0.4;       ///< driven between two poses, in turning ra
 constexpr std::size_t kYawBins = 72;
 constexpr std::array<double, 5> kCurvatures = {-1.0, -0.5, 0.0, 0.5, 1.0};  ///< times 1 / radius
 constexpr std::size_t kFewCells = 5'000;  ///< explored from the goal before the search begins
-constexpr double kSlack = 1.02;            ///< open poses that gain less are not worth expanding
+constexpr double kSlack = 1.02;           ///< open poses that gain less are not worth expanding
 /// An 8-connected distance exceeds the straight one by at most 1 / 0.9239.
 constexpr double kOctileShare = 0.9238795325112867;
 constexpr std::int32_t kNone = -1;

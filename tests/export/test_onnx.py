@@ -5,7 +5,6 @@ import json
 
 import numpy as np
 import pytest
-from scipy import special
 
 pytest.importorskip("torch", reason="the export needs PyTorch")
 pytest.importorskip("onnx", reason="the export needs onnx")
@@ -15,7 +14,7 @@ import onnxruntime
 import torch
 
 from planformer.encoding import NetworkScale, QueryKind
-from planformer.errors import InvalidParameter, InvalidWeights
+from planformer.errors import InvalidWeights
 from planformer.export import export, onnx
 from planformer.models import (
     CompactBody,
@@ -70,28 +69,6 @@ def test_the_papers_network_is_equally_sure_of_all_headings(tmp_path):
     assert probability.shape == (1, 1, 3, 5)
     assert ((probability >= 0) & (probability <= 1)).all()
     assert np.allclose(np.hypot(*heading[0]), 8, atol=1e-3)
-
-
-def test_a_shift_of_the_log_odds_raises_every_probability(tmp_path):
-    checkpoint = _checkpoint(tmp_path / "a.pt", MPTConfig(COMPACT))
-    plain, shifted = (
-        onnxruntime.InferenceSession(export(checkpoint, tmp_path / f"{i}.onnx", **options).weights)
-        for i, options in enumerate(({}, {"log_odds_shift": 1.7}))
-    )
-    inputs = {
-        "map": np.zeros((1, 1, 60, 100), np.uint8),
-        "query": np.random.default_rng(1).random((1, 6, 12, 20), np.float32),
-    }
-    before, after = (special.logit(session.run(None, inputs)[0]) for session in (plain, shifted))
-    np.testing.assert_allclose(after - before, 1.7, atol=1e-4)
-    assert json.loads((tmp_path / "1.json").read_text())["log_odds_shift"] == 1.7
-
-
-def test_a_shift_that_is_not_finite_is_refused(tmp_path):
-    checkpoint = _checkpoint(tmp_path / "a.pt", MPTConfig(COMPACT))
-    with pytest.raises(InvalidParameter, match="log_odds_shift"):
-        export(checkpoint, tmp_path / "a.onnx", log_odds_shift=float("nan"))
-    assert not (tmp_path / "a.onnx").exists()
 
 
 def test_the_card_describes_the_weights(tmp_path):

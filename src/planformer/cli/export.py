@@ -21,9 +21,6 @@ def export_command(
     name: Annotated[
         str | None, typer.Option(help="Name of the weights. Default: the file's.")
     ] = None,
-    log_odds_shift: Annotated[
-        float, typer.Option(help="Added to the log-odds: more gives larger regions.")
-    ] = 0.0,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON and nothing else.")] = False,
 ) -> None:
     """Export trained weights for ONNX Runtime, checked against PyTorch.
@@ -33,7 +30,7 @@ def export_command(
     importlib.import_module("planformer.models")  # says how to install PyTorch where it lacks
     from planformer.export import export
 
-    made = export(checkpoint, output, name=name, log_odds_shift=log_odds_shift)
+    made = export(checkpoint, output, name=name)
     if as_json:
         print_json(
             {

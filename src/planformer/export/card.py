@@ -21,7 +21,6 @@ def write_card(
     network: MPTConfig,
     *,
     name: str,
-    log_odds_shift: float,
     training: Mapping[str, Any],
     accuracy: Mapping[str, Mapping[str, float]],
 ) -> Path:
@@ -30,16 +29,15 @@ def write_card(
     Its keys: ``version`` of the format; ``name``; ``sha256`` of the .onnx file; ``robot``,
     "point" or "dubins"; ``commit`` of the source they were exported with, null outside a
     checkout; ``preset``, null for a network of one's own; ``network``, see
-    `MPTConfig.to_dict`; `X
-    and ``accuracy`` as given.
+    `MPTConfig.to_dict`; ``scale``, read by `NetworkScale.from_dict`; ``training`` and
+    ``accuracy`` as given.
 
     Args:
         weights: The .onnx file.
         network: Configuration of the network.
         name: Name of the weights.
-        log_odds_shift: What was added to the log-odds of every anchor.
         training: Settings of the training, its data and its steps.
-        accuracy: Validation metrics by kind of map at threshold 0.5, before the shift.
+        accuracy: Validation metrics by kind of map.
 
     Returns:
         The card's path.
@@ -53,7 +51,6 @@ def write_card(
         "preset": next((known for known, made in PRESETS.items() if made == network), None),
         "network": network.to_dict(),
         "scale": network.scale.to_dict(),
-        "log_odds_shift": log_odds_shift,
         "training": dict(training),
         "accuracy": {kind: dict(values) for kind, values in accuracy.items()},
     }

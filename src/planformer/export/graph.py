@@ -20,12 +20,11 @@ class DeployedProposer(nn.Module):
 
     Args:
         network: A network that returns a `Proposal`.
-        log_odds_shift: Added to the log-odds of every anchor.
     """
 
-    def __init__(self, network: nn.Module, log_odds_shift: float = 0.0) -> None:
+    def __init__(self, network: nn.Module) -> None:
         super().__init__()
-        self.network, self.log_odds_shift = network, log_odds_shift
+        self.network = network
 
     def forward(self, occupancy: Tensor, query: Tensor) -> Tensor | tuple[Tensor, Tensor]:
         """Propose a region.
@@ -39,7 +38,7 @@ class DeployedProposer(nn.Module):
             `Proposal`.
         """
         logits, heading = self.network(occupancy.to(query.dtype), query)
-        probability = torch.sigmoid(logits + self.log_odds_shift)
+        probability = torch.sigmoid(logits)
         return probability if heading is None else (probability, heading)
 
 

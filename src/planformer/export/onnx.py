@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -11,7 +10,7 @@ import torch
 from numpy.typing import NDArray
 
 from planformer.encoding import NetworkScale
-from planformer.errors import InvalidParameter, InvalidWeights, MissingExtra
+from planformer.errors import InvalidWeights, MissingExtra
 from planformer.export.card import write_card
 from planformer.export.graph import MAP, QUERY, DeployedProposer, example_inputs, to_onnx
 from planformer.files import whole_file
@@ -38,13 +37,7 @@ class Exported(NamedTuple):
     difference: float
 
 
-def export(
-    checkpoint: str | Path,
-    path: str | Path,
-    *,
-    name: str | None = None,
-    log_odds_shift: float = 0.0,
-) -> Exported:
+def export(checkpoint: str | Path, path: str | Path, *, name: str | None = None) -> Exported:
     """Export a training's checkpoint to one .onnx file with a card.
 
     The weights are stored in float32: a compact network is a few MB, and half precision would
@@ -55,24 +48,19 @@ def export(
         checkpoint: A file that `planformer.training.train` wrote.
         path: The .onnx file to write, its folder is created; the card takes its name.
         name: Name of the weights; by default the file's.
-        log_odds_shift: Added to the log-odds of every anchor: with a positive shift the fixed
-            threshold of 0.5 leaves out fewer of the shortest paths and selects larger regions.
 
     Returns:
         The files and the largest difference seen.
 
     Raises:
         InvalidWeights: The checkpoint is damaged, or the exported network differs.
-        InvalidParameter: The shift is not finite.
         MissingExtra: onnx or ONNX Runtime is not installed.
     """
     path = Path(path)
-    if not math.isfinite(log_odds_shift):
-        raise InvalidParameter(f"log_odds_shift must be finite; got {log_odds_shift}")
     if path.suffix != ".onnx":
         raise InvalidWeights(f"weights are exported to a file named *.onnx; got {path}")
     network, model, stored = load_checkpoint(Path(checkpoint))
-    deployed = DeployedProposer(model, log_odds_shift).eval()
+    deployed = DeployedProposer(model).eval()
     try:
         content = to_onnx(deployed, network.scale)
         difference = largest_difference(content, deployed, network.scale)
@@ -90,7 +78,6 @@ def export(
         path,
         network,
         name=name or path.stem,
-        log_odds_shift=log_odds_shift,
         training={key: stored.get(key) for key in ("training", "data", "step", "seconds")},
         accuracy=_last_metrics(stored.get("history", [])),
     )
