@@ -13,7 +13,7 @@ from planformer.errors import InvalidParameter, InvalidWeights, UnknownGuide, We
 
 SHIPPED = Path(__file__).resolve().parent.parent / "weights"
 
-ALIASES = {"mpt": "mpt_small.forest_maze_indoor"}
+ALIASES = {"mpt": "mpt_small.forest_maze_indoor", "mpt-dubins": "mpt_dubins.forest_indoor"}
 """Short names for the recommended weights."""
 
 CARD_VERSION = 1
