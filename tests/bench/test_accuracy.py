@@ -156,7 +156,6 @@ def started(tmp_path):
             start_new_session=True,
             stderr=subprocess.PIPE,
             text=True,
-            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
         )
         while not list((folder / "parts").glob("*.csv")):
             assert process.poll() is None, process.stderr.read()

@@ -4,11 +4,8 @@ from __future__ import annotations
 
 import json
 import os
-import signal
 import subprocess
 import sys
-
-import pytest
 
 from planformer.cli.exit_codes import BROKEN_PIPE, INTERRUPTED
 
@@ -23,20 +20,13 @@ main()
 """
 
 
-@pytest.fixture
-def default_interrupts():
-    """Children heed Ctrl-C even where this process was started to ignore it."""
-    return {"preexec_fn": lambda: signal.signal(signal.SIGINT, signal.default_int_handler)}
-
-
-def test_interrupt_keeps_the_best_path(room_file, tmp_path, default_interrupts):
+def test_interrupt_keeps_the_best_path(room_file, tmp_path):
     options = (*ENDS, "--time-limit", "100", "--output", str(tmp_path / "out"), "--no-picture")
     done = subprocess.run(
         [sys.executable, "-c", INTERRUPT_ITSELF, "plan", str(room_file), *options],
         capture_output=True,
         text=True,
         timeout=90,
-        **default_interrupts,
     )
     assert done.returncode == INTERRUPTED, done.stderr
     assert "Traceback" not in done.stderr
@@ -44,7 +34,7 @@ def test_interrupt_keeps_the_best_path(room_file, tmp_path, default_interrupts):
     assert (record["solved"], record["status"]) == (True, "cancelled")
 
 
-def test_interrupted_generation_can_be_completed(shell, tmp_path, default_interrupts):
+def test_interrupted_generation_can_be_completed(shell, tmp_path):
     folder = tmp_path / "data"
     options = ("generate", str(folder), "--maps", "500", "--workers", "1", "--paths-per-map", "20")
     done = subprocess.run(
@@ -52,7 +42,6 @@ def test_interrupted_generation_can_be_completed(shell, tmp_path, default_interr
         capture_output=True,
         text=True,
         timeout=90,
-        **default_interrupts,
     )
     assert done.returncode == INTERRUPTED, done.stderr
     assert "Traceback" not in done.stderr
