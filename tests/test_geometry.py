@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from planformer.errors import InvalidParameter
@@ -16,7 +16,6 @@ angles = st.floats(-100.0, 100.0)
 frames = st.builds(Frame, coordinates, coordinates, angles)
 
 
-@settings(deadline=None)
 @given(angles)
 def test_wrapped_angle_is_equivalent_and_in_range(angle):
     wrapped = wrap_angle(angle)
@@ -60,7 +59,6 @@ def test_distance_to_polyline_of_known_points():
     assert distance_to_polyline(np.empty((0, 2)), polyline).shape == (0,)
 
 
-@settings(deadline=None)
 @given(st.integers(0, 2**32))
 def test_distance_to_polyline_equals_dense_sampling(seed):
     rng = np.random.default_rng(seed)
@@ -78,14 +76,12 @@ def test_distance_to_an_empty_polyline_is_an_error():
         distance_to_polyline([(0, 0)], np.empty((0, 2)))
 
 
-@settings(deadline=None)
 @given(frames, st.lists(st.tuples(coordinates, coordinates), min_size=1, max_size=5))
 def test_frame_round_trip_of_points(frame, points):
     np.testing.assert_allclose(frame.to_world(frame.to_local(points)), points, atol=1e-9)
     np.testing.assert_allclose(frame.to_local(frame.to_world(points)), points, atol=1e-9)
 
 
-@settings(deadline=None)
 @given(frames, coordinates, coordinates, angles)
 def test_frame_round_trip_of_poses(frame, x, y, yaw):
     back = frame.to_world(frame.to_local((x, y, yaw)))

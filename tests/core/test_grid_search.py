@@ -93,7 +93,7 @@ def cell_of(point):
     return math.floor(point[1]), math.floor(point[0])
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 @given(problems())
 def test_a_path_is_found_exactly_where_one_exists_and_is_valid(problem):
     blocked, start, goal = problem
@@ -108,7 +108,7 @@ def test_a_path_is_found_exactly_where_one_exists_and_is_valid(problem):
         assert not touches(path[:-1], path[1:], blocked).any()
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(problems())
 def test_the_length_lies_between_any_angle_optimum_and_steps_over_cells(problem):
     blocked, start, goal = problem
@@ -207,7 +207,7 @@ def test_threads_do_not_disturb_each_other():
         np.testing.assert_array_equal(one, other)
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(problems())
 def test_wavefront_equals_dijkstra_also_from_a_blocked_cell(problem):
     blocked, start, _ = problem

@@ -40,7 +40,7 @@ def drive(motions, start, radius, spacing):
     return path
 
 
-@settings(deadline=None, max_examples=50)
+@settings(max_examples=50)
 @given(motions, st.floats(-3.0, 3.0), st.floats(0.3, 2.0))
 def test_the_ends_stand_for_the_whole_path(motions, yaw, radius):
     path = drive(motions, (1.0, 2.0, yaw), radius, 0.025)

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
@@ -13,7 +13,6 @@ from planformer.maps.grid import OccupancyGrid
 maps = hnp.arrays(np.bool_, hnp.array_shapes(min_dims=2, max_dims=2, max_side=30))
 
 
-@settings(deadline=None)
 @given(maps, st.sampled_from([0.02, 0.05, 0.1, 1 / 3]), st.floats(0.0, 8.0))
 def test_it_equals_the_grid_for_any_radius(occupied, resolution, cells):
     radius = cells * resolution
@@ -21,7 +20,6 @@ def test_it_equals_the_grid_for_any_radius(occupied, resolution, cells):
     np.testing.assert_array_equal(inflate(occupied, resolution, radius), expected)
 
 
-@settings(deadline=None)
 @given(maps, st.sampled_from([0.02, 0.05, 0.1, 1 / 3]), st.sampled_from([1, 2, 8, 13, 25, 50]))
 def test_it_equals_the_grid_where_a_distance_is_the_radius(occupied, resolution, squared):
     radius = squared**0.5 * resolution

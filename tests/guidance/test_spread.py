@@ -37,7 +37,7 @@ def probabilities(rng, grid, scale, levels):
     return (rng.integers(0, levels + 1, tokens) / levels).astype(np.float32)
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=80)
 @given(SCALES, st.integers(1, 40), st.integers(1, 40), SEEDS)
 def test_spread_is_the_union_of_patches_at_every_threshold(scale, rows, cols, seed):
     rng = np.random.default_rng(seed)
@@ -52,7 +52,7 @@ def test_spread_is_the_union_of_patches_at_every_threshold(scale, rows, cols, se
     np.testing.assert_array_equal(cells < 0, ~everything)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(
     SCALES,
     st.sampled_from([0.01, 0.03, 0.1, 0.25, 1.0]),
@@ -76,7 +76,7 @@ def test_spread_at_other_resolutions_goes_by_the_cells_centres(scale, resolution
     assert (cells >= np.where(surely, probability, -1.0).max(axis=(2, 3))).all()
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=80)
 @given(SCALES, st.integers(2, 40), st.integers(2, 40), SEEDS)
 def test_the_connecting_threshold_is_the_highest_that_connects(scale, rows, cols, seed):
     rng = np.random.default_rng(seed)

@@ -86,7 +86,6 @@ def test_unknown_must_fit():
         OccupancyGrid([[0]], unknown=[[0, 0]])
 
 
-@settings(deadline=None)
 @given(grids, st.data())
 def test_cells_and_world_points_round_trip(grid, data):
     rows, columns = grid.shape
@@ -96,7 +95,6 @@ def test_cells_and_world_points_round_trip(grid, data):
     assert bool(grid.contains(xy)) == (0 <= rc[0] < rows and 0 <= rc[1] < columns)
 
 
-@settings(deadline=None)
 @given(grids, st.tuples(st.floats(-100, 100), st.floats(-100, 100)))
 def test_a_point_lies_in_its_cell(grid, xy):
     offset = grid.frame.to_local(grid.to_xy(grid.to_rc(xy))) - grid.frame.to_local(xy)
@@ -123,7 +121,6 @@ def test_points_that_are_no_points():
         grid.contains((0.0, 0.0, 0.0))
 
 
-@settings(deadline=None)
 @given(grids)
 def test_clearance_is_exact(grid):
     np.testing.assert_allclose(grid.clearance, exact_clearance(grid), rtol=1e-6)
@@ -143,7 +140,6 @@ def test_clearance_counts_the_ring_outside():
     np.testing.assert_allclose(OccupancyGrid(np.zeros((3, 5)), 1.0).clearance[1], [1, 2, 2, 2, 1])
 
 
-@settings(deadline=None)
 @given(grids, st.floats(0, 20))
 def test_blocked_is_clearance_up_to_the_radius(grid, radius):
     exact = exact_clearance(grid)
@@ -175,7 +171,6 @@ def test_bad_radii_are_rejected(radius):
         OccupancyGrid([[0]]).blocked(radius)
 
 
-@settings(deadline=None)
 @given(grids, st.tuples(st.floats(-80, 80), st.floats(-80, 80)), st.sampled_from([0.0, 0.1, 1.0]))
 def test_nearest_free_is_the_nearest_of_all_free_cells(grid, xy, radius):
     free = np.argwhere(~grid.blocked(radius))
@@ -197,7 +192,6 @@ def test_nearest_free_across_a_large_obstacle():
     assert grid.nearest_free((1e6, 1e6)) == (15.5, 295.5)
 
 
-@settings(deadline=None)
 @given(arrays(np.int8, (3, 4), elements=st.integers(-1, 100)), st.booleans())
 def test_ros_values_are_classified(values, unknown_is_occupied):
     grid = OccupancyGrid.from_ros(
@@ -292,7 +286,7 @@ def test_maps_import_with_numpy_alone():
     subprocess.run([sys.executable, "-c", code], check=True)
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(grids)
 def test_random_maps_survive_every_question(grid):
     assert repr(grid)

@@ -28,7 +28,7 @@ def test_the_same_seed_gives_the_same_map():
     assert generate_maze(3) != generate_maze(4)
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(
     st.integers(0, 2**32),
     st.floats(1.95, 14.0),

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
@@ -16,7 +16,6 @@ masks = st.tuples(st.integers(1, 20), st.integers(1, 20)).flatmap(
 )
 
 
-@settings(deadline=None)
 @given(masks, st.floats(1.01, 5.0))
 def test_a_free_coarser_cell_was_free_all_over(layers, ratio):
     occupied, unknown = layers
@@ -35,7 +34,6 @@ def test_a_free_coarser_cell_was_free_all_over(layers, ratio):
         assert coarse.unknown[r, c] == (grid.unknown[inside].any() and not seen)
 
 
-@settings(deadline=None)
 @given(masks, st.floats(0.2, 0.99))
 def test_a_finer_cell_is_what_lies_at_its_centre(layers, ratio):
     occupied, unknown = layers

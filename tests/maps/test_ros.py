@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import yaml
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from PIL import Image
@@ -223,7 +223,6 @@ def test_damaged_yaml(tmp_path, text):
         load_ros_map(file)
 
 
-@settings(deadline=None)
 @given(st.data())
 def test_truncated_pictures_are_errors_not_half_maps(tmp_path_factory, data):
     folder = tmp_path_factory.mktemp("truncated")
@@ -239,7 +238,6 @@ def test_truncated_pictures_are_errors_not_half_maps(tmp_path_factory, data):
         load_ros_map(file)
 
 
-@settings(deadline=None)
 @given(st.data())
 def test_damaged_pictures_raise_nothing_but_invalid_map(tmp_path_factory, data):
     folder = tmp_path_factory.mktemp("damaged")
@@ -254,7 +252,6 @@ def test_damaged_pictures_raise_nothing_but_invalid_map(tmp_path_factory, data):
         assert load_ros_map(file).occupied.size > 0
 
 
-@settings(deadline=None)
 @given(
     arrays(np.int8, st.tuples(st.integers(1, 9), st.integers(1, 9)), elements=st.integers(-1, 1)),
     st.floats(1e-6, 1e3),

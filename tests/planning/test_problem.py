@@ -100,7 +100,7 @@ def test_start_and_goal_may_lie_on_the_border_of_the_map():
         Problem(grid, point, (0.0, 0.0), (10.0, 5.0))
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(st.floats(-1e3, 1e3), st.floats(-1e3, 1e3), st.floats(-4, 4), st.floats(-10, 10))
 def test_local_states_are_the_world_s_in_the_frame_of_the_map(x, y, yaw, heading):
     grid = pf.OccupancyGrid(np.zeros((50, 50), bool), 0.1, origin=(x, y, yaw))

@@ -41,7 +41,7 @@ def draw(anchors, headings, half_width, count, seed=1):
     return region.sample(count, seed)
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(st.floats(-50, 50), st.floats(-50, 50), st.floats(0.01, 10), st.integers(0, 2**32 - 1))
 def test_squares_are_filled_evenly(x, y, half_width, seed):
     samples = draw([(x, y)], None, half_width, 4000, seed)
@@ -53,7 +53,7 @@ def test_squares_are_filled_evenly(x, y, half_width, seed):
     assert np.hypot(np.cos(samples[:, 2]).mean(), np.sin(samples[:, 2]).mean()) < 0.1
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(st.floats(-np.pi, np.pi), st.floats(0.01, 10), st.integers(0, 2**32 - 1))
 def test_ellipses_lie_along_the_heading(heading, half_width, seed):
     samples = draw([(3.0, -2.0)], np.array([heading]), half_width, 4000, seed)

@@ -86,7 +86,7 @@ def distance_to_lattice_point(p, q):
     return min(gap, ends)
 
 
-@settings(max_examples=400, deadline=None)
+@settings(max_examples=400)
 @given(grids(), *[EIGHTHS] * 4)
 @example(np.eye(SIZE, dtype=bool)[::-1], 0.5, 0.5, 7.5, 7.5)  # between diagonal neighbours
 @example(np.zeros((SIZE, SIZE), bool), 0.0, 3.0, 7.875, 3.0)  # on a grid line
@@ -95,7 +95,7 @@ def test_equals_exact_arithmetic_on_lines_and_corners(blocked, x0, y0, x1, y1):
     assert is_free(blocked, (x0, y0), (x1, y1)) == exactly_free(blocked, (x0, y0), (x1, y1))
 
 
-@settings(max_examples=400, deadline=None)
+@settings(max_examples=400)
 @given(grids(), *[ANY] * 4)
 def test_equals_exact_arithmetic_and_the_path_check_in_general_position(blocked, x0, y0, x1, y1):
     p, q = (x0, y0), (x1, y1)
@@ -105,7 +105,7 @@ def test_equals_exact_arithmetic_and_the_path_check_in_general_position(blocked,
     assert is_free(blocked, p, q) == (not touched_cells_blocked(blocked, np.array([p, q])))
 
 
-@settings(max_examples=400, deadline=None)
+@settings(max_examples=400)
 @given(grids(), st.lists(st.tuples(EIGHTHS, EIGHTHS), min_size=2, max_size=6))
 def test_the_path_check_accepts_what_the_core_accepts(blocked, points):
     free = all(is_free(blocked, p, q) for p, q in itertools.pairwise(points))
@@ -113,7 +113,7 @@ def test_the_path_check_accepts_what_the_core_accepts(blocked, points):
         assert not touched_cells_blocked(blocked, np.array(points))
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(grids(), st.lists(st.tuples(EIGHTHS, EIGHTHS), min_size=2, max_size=6))
 def test_what_the_path_check_accepts_enters_no_blocked_cell(blocked, points):
     if touched_cells_blocked(blocked, np.array(points)):
@@ -125,7 +125,7 @@ def test_what_the_path_check_accepts_enters_no_blocked_cell(blocked, points):
             assert on_a_line or not blocked[int(y), int(x)]
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(grids(), *[ANY] * 4)
 def test_direction_does_not_matter(blocked, x0, y0, x1, y1):
     assert is_free(blocked, (x0, y0), (x1, y1)) == is_free(blocked, (x1, y1), (x0, y0))
@@ -178,7 +178,7 @@ def test_long_diagonals_meet_every_corner_exactly(resolution):
         assert is_free(blocked, *ends, resolution)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(st.integers(0, 2**32 - 1), st.sampled_from([0.05, 0.03, 1.0, 12.5]))
 def test_long_segments_against_dense_samples(seed, resolution):
     rng = np.random.default_rng(seed)

@@ -139,7 +139,7 @@ def test_a_path_of_the_wrong_shape_is_an_error_that_names_the_right_one(open_roo
         pf.path_is_valid(open_room, robot, path)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(
     st.floats(-1e4, 1e4),
     st.floats(-1e4, 1e4),

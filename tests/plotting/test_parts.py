@@ -26,7 +26,7 @@ def test_nice_length_is_round_and_close(extent):
     assert round(length / 10.0 ** np.floor(np.log10(length) + 1e-9), 9) in (1.0, 2.0, 5.0)
 
 
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=40)
 @given(arrays(bool, st.tuples(st.integers(1, 12), st.integers(1, 12))))
 def test_outlines_enclose_the_mask(mask):
     grid = pf.OccupancyGrid(np.zeros(mask.shape, bool), 0.1)
@@ -39,7 +39,6 @@ def test_outlines_enclose_the_mask(mask):
     assert abs(area) == pytest.approx(mask.sum() * 0.01, abs=1e-3)
 
 
-@settings(deadline=None)
 @given(
     known=arrays(bool, st.tuples(st.integers(1, 30), st.integers(1, 30))),
     at=st.tuples(st.floats(0, 0.999), st.floats(0, 0.999)),

@@ -68,7 +68,7 @@ def test_a_point_moves_anywhere():
     assert pf.PointRobot().motion_errors(path[:1]).shape == (0,)
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(st.floats(-100, 100), st.floats(-100, 100), YAW, CURVATURE, st.booleans())
 def test_arcs_within_the_turning_radius_are_driven(x, y, yaw, curvature, back):
     steps = np.full(12, -0.05 if back else 0.05)
@@ -78,7 +78,7 @@ def test_arcs_within_the_turning_radius_are_driven(x, y, yaw, curvature, back):
     assert pf.DubinsCar(turning_radius=1.0).motion_errors(path).any() == back
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(YAW, st.floats(1.02, 5.0), st.sampled_from([-1, 1]), st.sampled_from([-1, 1]))
 def test_tighter_arcs_are_not(yaw, curvature, side, direction):
     path = drive((3.0, 4.0, yaw), side * curvature, np.full(8, direction * 0.1))
@@ -86,7 +86,7 @@ def test_tighter_arcs_are_not(yaw, curvature, side, direction):
         assert car(turning_radius=1.0).motion_errors(path).all()
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(YAW, CURVATURE, st.floats(0.01, math.pi - 0.01), st.sampled_from([-1, 1]))
 def test_skids_are_not(yaw, curvature, slip, side):
     path = drive((0.0, 0.0, yaw), curvature, np.full(8, 0.1))
@@ -95,7 +95,7 @@ def test_skids_are_not(yaw, curvature, slip, side):
         assert car(turning_radius=1.0).motion_errors(path).all()
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 @given(*[st.floats(-3, 3), st.floats(-3, 3), YAW] * 2, st.booleans())
 def test_the_core_s_curves_are_driven(x0, y0, yaw0, x1, y1, yaw1, reverse):
     start, goal = np.array([x0, y0, yaw0]), np.array([x1, y1, yaw1])
