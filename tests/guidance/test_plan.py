@@ -1,17 +1,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import islice
 
 import numpy as np
 import pytest
 
 import planformer as pf
-from planformer.data.problems import draw_problems
+from planformer.data.experts import hybrid_astar
+from planformer.data.problems import draw_problems, random_problems
 from planformer.encoding import NetworkScale
 from planformer.errors import InvalidParameter, InvalidWeights, UnknownGuide, WeightsMismatch
-from planformer.geometry import distance_to_polyline
+from planformer.geometry import distance_to_polyline, polyline_length
 from planformer.guidance import make_region
-from planformer.planning import Problem, planner_names
+from planformer.planning import PlanStatus, Problem, planner_names
 
 REAL_MAPS = [
     ("depot.yaml", None, 0.1),
@@ -164,6 +166,54 @@ def test_a_network_with_headings_guides_a_car_along_them(room, make_weights):
     car = pf.DubinsCar(radius=0.1, turning_radius=0.3)
     region = pf.propose_region(room.grid, car, (*room.start, 0.0), (*room.goal, 0.0), guide=weights)
     np.testing.assert_allclose(region.headings, np.pi / 2 + room.grid.frame.yaw)
+
+
+@pytest.fixture(scope="module")
+def car_problems():
+    """Problems for the car that the weights know, on forests that lie askew in the world."""
+    car, problems = pf.DubinsCar(radius=0.2, turning_radius=0.549), []
+    for seed in range(4000, 4006):
+        made = pf.generate_forest(seed, width=24.0, height=24.0)
+        grid = pf.OccupancyGrid(made.occupied, made.resolution, origin=(5.0, -3.0, 0.8))
+        rng = np.random.default_rng(seed)
+        drawn = random_problems(grid, car, min_distance=4.0, max_distance=15.0, rng=rng)
+        solved = ((problem, hybrid_astar(problem, 100_000)) for problem in islice(drawn, 10))
+        problems.append(next((problem, path) for problem, path in solved if path is not None))
+    return problems
+
+
+def test_the_shipped_headings_run_along_good_paths(car_problems):
+    agreement = []
+    for problem, path in car_problems:
+        region = pf.propose_region(
+            problem.grid, problem.robot, problem.start, problem.goal, guide="mpt-dubins"
+        )
+        nearest = np.hypot(*(region.anchors[..., None, :] - path[:, :2]).transpose(3, 0, 1, 2))
+        off = region.headings - path[nearest.argmin(axis=2), 2]
+        agreement.append(np.cos(off)[nearest.min(axis=2) < 0.5].mean())
+        assert (region.yaw_deviations >= 0.1).all()
+    assert np.median(agreement) > 0.8
+
+
+def test_the_shipped_weights_guide_the_car(car_problems):
+    solved = 0
+    for problem, path in car_problems:
+        result = pf.plan(
+            problem.grid,
+            problem.robot,
+            problem.start,
+            problem.goal,
+            guide="mpt-dubins",
+            max_vertices=500,
+            time_limit=60.0,
+            target_length=1.05 * polyline_length(path[:, :2]),
+            seed=1,
+        )
+        solved += result.status is PlanStatus.TARGET_REACHED
+        if result.solved:
+            _same_ends(result, problem.start, problem.goal)
+            assert pf.path_is_valid(problem.grid, problem.robot, result.path)
+    assert solved >= 4  # without guidance, 500 vertices are far too few
 
 
 def test_a_network_with_headings_does_not_fit_a_point(room, make_weights):
