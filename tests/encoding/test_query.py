@@ -74,7 +74,7 @@ def test_wavefront_shows_the_detour():
     pixels = _wall(gap=slice(440, 480))
     query = encode_query(pixels, START, GOAL, _scale(QueryKind.WAVEFRONT))
     on_way = query[4]
-    assert on_way[int(22.0 / 0.25), 40] > 0.85  # at the lower end of the gap
+    assert on_way[int(22.0 / 0.25), 40] > 0.9  # at the lower end of the gap
     assert on_way[10, 90] < 0.1
     assert on_way[int(6.0 / 0.25), int(3.0 / 0.25)] == pytest.approx(1.0, abs=1e-5)
 
@@ -150,3 +150,14 @@ def test_a_way_that_only_touches_at_corners_is_still_shown():
     query = encode_query(pixels, START, GOAL, _scale(QueryKind.WAVEFRONT))
     assert query[4].max() == pytest.approx(1.0)
     assert query[2, 60, 80] < math.tanh(2.5)
+
+
+def test_a_wall_inside_a_query_pixel_is_no_way_through():
+    """Start and goal are near each other's side of a thin wall, and far from each other."""
+    pixels = _wall(gap=slice(440, 480)) * 0
+    pixels[:440, 202] = 1
+    query = encode_query(pixels, (9.9, 6.0), (10.4, 6.0), _scale(QueryKind.WAVEFRONT))
+    on_way = query[4]
+    assert on_way.max() == pytest.approx(1.0, abs=1e-3)
+    along_the_wall = on_way[24:88, 38:43].max(axis=1)
+    assert along_the_wall.min() > 0.9  # all the way up to the gap

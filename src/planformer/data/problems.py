@@ -71,8 +71,8 @@ def random_problems(
 ) -> Iterator[Problem]:
     """Endless random problems: points as those of `draw_problems`, a car's yaw uniform.
 
-    A point robot's problems are all solvable. A car's often are not: a third of those in forests start
-    or end with no room to turn.
+    A point robot's problems are all solvable. A car's often are not: a third of those in forests
+    start or end with no room to turn.
 
     Raises:
         InvalidParameter: As `draw_problems`.

@@ -110,36 +110,28 @@ def _free_share(pixels: NDArray[np.uint8], side: int) -> NDArray[np.float64]:
 def _distance_channels(
     pixels: NDArray[np.uint8], states: tuple[NDArray[np.float64], ...], scale: NetworkScale
 ) -> NDArray[np.float64]:
-    """(3, h, w): how far from the start, how far from the goal, how small the detour."""
-    from_start, from_goal = _distances(pixels, states, scale)
-    far = DISTANCE_SCALE / scale.query_resolution
-    via = from_start + from_goal
-    shortest = via.min()
-    excess = via - shortest if np.isfinite(shortest) else via
-    return np.stack(
-        [np.tanh(from_start / far), np.tanh(from_goal / far), np.exp(-excess / EXCESS_SCALE)]
-    )
-
-
-def _distances(
-    pixels: NDArray[np.uint8], states: tuple[NDArray[np.float64], ...], scale: NetworkScale
-) -> list[NDArray[np.float64]]:
-    """(h, w) geodesic distances in query pixels from each state to the nearest point of a pixel.
+    """(3, h, w): how far from the start, how far from the goal, how small the detour.
 
     The waves run at the map's full resolution: cells as coarse as the query's would close narrow
-    gaps or open thin walls, and the shortest way often leads through a narrow gap.
+    gaps or open thin walls, and the shortest way often leads through a narrow gap. A query pixel
+    has the least distances and the least detour of its pixels, each for itself: a wall may divide
+    them.
     """
-    side = scale.query_stride
-    blocked = pixels > 0
+    blocked, side = pixels > 0, scale.query_stride
     start, goal = (_cell(state, pixels.shape, scale.resolution) for state in states)
     from_start = wavefront(blocked, start)
-    if np.isfinite(from_start[goal]):
-        waves = from_start, wavefront(blocked, goal)
-        return [_least(wave, side).astype(np.float64) / side for wave in waves]
-    # Resampling has closed the way, or there is none: any free pixel opens a whole query pixel.
-    closed = _free_share(pixels, side) == 0.0
-    cells = (_cell(state, closed.shape, scale.query_resolution) for state in states)
-    return [wavefront(closed, cell).astype(np.float64) for cell in cells]
+    if not np.isfinite(from_start[goal]):
+        # Resampling has closed the way, or there is none: any free pixel opens a query pixel.
+        blocked, side = _free_share(pixels, side) == 0.0, 1
+        start, goal = (_cell(state, blocked.shape, scale.query_resolution) for state in states)
+        from_start = wavefront(blocked, start)
+    from_goal = wavefront(blocked, goal)
+    shortest = from_start[goal]
+    detour = from_start + from_goal - (shortest if np.isfinite(shortest) else 0.0)
+    detour = np.maximum(detour, 0.0)  # against rounding
+    near, far, excess = (_least(wave, side) / side for wave in (from_start, from_goal, detour))
+    reach = DISTANCE_SCALE / scale.query_resolution
+    return np.stack([np.tanh(near / reach), np.tanh(far / reach), np.exp(-excess / EXCESS_SCALE)])
 
 
 def _least(values: NDArray[np.float32], side: int) -> NDArray[np.float32]:
