@@ -2,8 +2,16 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 
 namespace planformer {
+
+void require_positive(const char* name, double value) {
+    if (std::isfinite(value) && value > 0.0) return;
+    const std::string message =
+        std::string(name) + " must be finite and > 0, not " + std::to_string(value);
+    throw nb::value_error(message.c_str());
+}
 
 FreeSpace free_space_of(const BlockedArray& blocked, double resolution) {
     static_assert(sizeof(bool) == sizeof(std::uint8_t));
@@ -11,9 +19,7 @@ FreeSpace free_space_of(const BlockedArray& blocked, double resolution) {
     if (blocked.size() >= static_cast<std::size_t>(std::numeric_limits<int>::max())) {
         throw nb::value_error("blocked must have fewer than 2^31 - 1 cells");
     }
-    if (!(std::isfinite(resolution) && resolution > 0.0)) {
-        throw nb::value_error("resolution must be finite and > 0");
-    }
+    require_positive("resolution", resolution);
     return {static_cast<int>(blocked.shape(0)), static_cast<int>(blocked.shape(1)), resolution,
             reinterpret_cast<const std::uint8_t*>(blocked.data())};
 }

@@ -24,11 +24,17 @@ using BlockedArray = nb::ndarray<const bool, nb::ndim<2>, nb::c_contig, nb::devi
 /// Poses: (N, 3) of x, y [m] and yaw [rad].
 using PosesArray = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
 
+/// One pose: x, y [m] and yaw [rad].
+using PoseArray = nb::ndarray<const double, nb::shape<3>, nb::c_contig, nb::device::cpu>;
+
 template <typename T>
 using NumpyArray = nb::ndarray<nb::numpy, T>;
 
 /// The grid's cells without a copy. Raises ValueError for a size or resolution that none can have.
 FreeSpace free_space_of(const BlockedArray& blocked, double resolution);
+
+/// Raises ValueError for a value that is not finite or not > 0.
+void require_positive(const char* name, double value);
 
 /// The pose in three consecutive numbers.
 inline Pose to_pose(const double* xy_yaw) { return {xy_yaw[0], xy_yaw[1], xy_yaw[2]}; }

@@ -1,7 +1,5 @@
 /// Python functions on the car's curves, for tests and pictures.
-#include <cmath>
 #include <cstddef>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -13,15 +11,6 @@ namespace planformer {
 namespace {
 
 using namespace nb::literals;
-
-using PoseArray = nb::ndarray<const double, nb::shape<3>, nb::c_contig, nb::device::cpu>;
-
-void require_positive(const char* name, double value) {
-    if (std::isfinite(value) && value > 0.0) return;
-    const std::string message =
-        std::string(name) + " must be finite and > 0, not " + std::to_string(value);
-    throw nb::value_error(message.c_str());
-}
 
 NumpyArray<double> curve_lengths(const PosesArray& starts, const PosesArray& goals,
                                  double turning_radius, bool reverse) {

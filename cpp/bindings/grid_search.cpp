@@ -3,7 +3,6 @@
 #include <nanobind/stl/optional.h>
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -37,15 +36,11 @@ NumpyArray<double> find_path(const BlockedArray& blocked, double resolution,
     return to_numpy(std::move(values), {count, 2});
 }
 
-using PoseArray = nb::ndarray<const double, nb::shape<3>, nb::c_contig, nb::device::cpu>;
-
 NumpyArray<double> find_car_path(const BlockedArray& blocked, double resolution,
                                  double turning_radius, bool reverse, const PoseArray& start,
                                  const PoseArray& goal, std::size_t max_expansions) {
     const FreeSpace space = free_space_of(blocked, resolution);
-    if (!(std::isfinite(turning_radius) && turning_radius > 0.0)) {
-        throw nb::value_error("turning_radius must be finite and > 0");
-    }
+    require_positive("turning_radius", turning_radius);
     std::vector<Pose> poses;
     {
         const nb::gil_scoped_release unlocked;
