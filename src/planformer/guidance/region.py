@@ -18,7 +18,7 @@ PAPER_THRESHOLD = 0.5
 
 RELAXATION = 0.5
 """Anchors this much less likely than the weakest one needed to connect start and goal are kept, so
-that the shortest path and not just any path fits (benchmarks/threshold.py)."""
+that the shortest path and not just any path fits (benchmarks/regions.py)."""
 
 
 @dataclass(frozen=True)
