@@ -34,7 +34,7 @@ demo: $(PACKAGE_READY)
 test: $(DEV_READY) $(PACKAGE_READY)
 	$(BIN)/pytest $(PYTEST_ARGS)
 
-## test-core: fuzz the car's curves with 10 million pairs of poses
+## test-core: fuzz the car's curves with 10 million pairs of poses, check its neighbours
 .PHONY: test-core
 test-core: $(DEV_READY)
 	PATH="$(BIN):$$PATH" cmake -S . -B build/core -G Ninja --log-level=WARNING \

@@ -22,6 +22,7 @@
 
 #include <algorithm>
 
+#include "core/car_neighbors.hpp"
 #include "core/prm_star.hpp"
 
 namespace planformer {
@@ -42,6 +43,15 @@ ob::PlannerPtr make(const ob::SpaceInformationPtr& si, std::size_t) {
     return std::make_shared<Planner>(si);
 }
 
+/// For planners that look for the nearest vertices of a tree: OMPL's structures are for metrics.
+template <typename Planner>
+ob::PlannerPtr make_tree(const ob::SpaceInformationPtr& si, std::size_t) {
+    auto planner = std::make_shared<Planner>(si);
+    const bool is_car = si->getStateSpace()->getType() == ob::STATE_SPACE_SE2;
+    if (is_car) planner->template setNearestNeighbors<CarNeighbors>();
+    return planner;
+}
+
 /// Start and goal are vertices too, and the search has to begin below the limit.
 constexpr std::size_t kOtherVertices = 3;
 
@@ -57,13 +67,13 @@ ob::PlannerPtr make_sampled_first(const ob::SpaceInformationPtr& si, std::size_t
 
 /// Roadmaps and backward searches treat an edge as passable both ways, which is wrong for a car.
 const Entry kPlanners[] = {
-    {"RRT", make<og::RRT>, true},
-    {"RRTConnect", make<og::RRTConnect>, true},
-    {"RRTstar", make<og::RRTstar>, true},
+    {"RRT", make_tree<og::RRT>, true},
+    {"RRTConnect", make_tree<og::RRTConnect>, true},
+    {"RRTstar", make_tree<og::RRTstar>, true},
     {"RRTsharp", make<og::RRTsharp>, false},
     {"RRTXstatic", make<og::RRTXstatic>, false},
-    {"InformedRRTstar", make<og::InformedRRTstar>, true},
-    {"SORRTstar", make<og::SORRTstar>, true},
+    {"InformedRRTstar", make_tree<og::InformedRRTstar>, true},
+    {"SORRTstar", make_tree<og::SORRTstar>, true},
     {"BITstar", make<og::BITstar>, true},
     {"ABITstar", make<og::ABITstar>, true},
     {"AITstar", make<og::AITstar>, false},
