@@ -9,7 +9,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from planformer.errors import InvalidParameter
-from planformer.geometry import Frame, distance_to_polyline, polyline_length, wrap_angle
+from planformer.geometry import (
+    Frame,
+    distance_to_polyline,
+    offset_to_polyline,
+    polyline_length,
+    wrap_angle,
+)
 
 coordinates = st.floats(-1e4, 1e4)
 angles = st.floats(-100.0, 100.0)
@@ -69,6 +75,15 @@ def test_distance_to_polyline_equals_dense_sampling(seed):
     distance = distance_to_polyline(points, polyline)
     assert (distance <= expected + 1e-12).all()
     np.testing.assert_allclose(distance, expected, atol=0.03)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_offset_to_polyline_leads_to_it(seed):
+    rng = np.random.default_rng(seed)
+    polyline, points = rng.uniform(-5, 5, (4, 2)), rng.uniform(-6, 6, (20, 2))
+    offset = offset_to_polyline(points, polyline)
+    np.testing.assert_allclose(np.hypot(*offset.T), distance_to_polyline(points, polyline))
+    np.testing.assert_allclose(distance_to_polyline(points + offset, polyline), 0.0, atol=1e-12)
 
 
 def test_distance_to_an_empty_polyline_is_an_error():

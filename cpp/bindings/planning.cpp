@@ -24,17 +24,19 @@ NumpyArray<std::uint32_t> edges_of(const Tree& tree) {
     return to_numpy(std::move(values), {tree.edges.size(), 2});
 }
 
+using OffsetArray = nb::ndarray<const double, nb::shape<-1, 2>, nb::c_contig, nb::device::cpu>;
 using YawArray = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 
-Region make_region(const PosesArray& anchors, bool has_heading, double half_width,
+Region make_region(const PosesArray& anchors, const OffsetArray& offsets, bool has_heading, double half_width,
                    double minor_axis, const YawArray& yaw_deviations, double area) {
     if (anchors.shape(0) == 0) throw nb::value_error("a region needs at least one anchor");
-    if (yaw_deviations.shape(0) != anchors.shape(0)) {
-        throw nb::value_error("a region needs a yaw deviation for each anchor");
+    if (yaw_deviations.shape(0) != anchors.shape(0) || offsets.shape(0) != anchors.shape(0)) {
+        throw nb::value_error("a region needs an offset and a yaw deviation for each anchor");
     }
     Region region;
     for (std::size_t i = 0; i < anchors.shape(0); ++i) {
         region.anchors.push_back(to_pose(anchors.data() + 3 * i));
+        region.offsets.push_back({offsets.data()[2 * i], offsets.data()[2 * i + 1]});
     }
     region.has_heading = has_heading;
     region.half_width = half_width;
@@ -119,7 +121,7 @@ void register_planning(nb::module_& m) {
         .def("cancel", &Cancellation::cancel, "End the plans that hold this object; thread-safe.")
         .def_prop_ro("is_cancelled", &Cancellation::is_cancelled);
     nb::class_<Region>(m, "Region")
-        .def(nb::new_(&make_region), nb::arg("anchors"), nb::kw_only(), nb::arg("has_heading"),
+        .def(nb::new_(&make_region), nb::arg("anchors"), nb::arg("offsets"), nb::kw_only(), nb::arg("has_heading"),
              nb::arg("half_width"), nb::arg("minor_axis"), nb::arg("yaw_deviations"),
              nb::arg("area"))
         .def(

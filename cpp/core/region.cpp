@@ -13,26 +13,48 @@ namespace ob = ompl::base;
 
 namespace {
 
-/// Draws that miss the map are repeated this often before the draw is clamped to it.
+/// Draws that miss the map or the region are repeated this often before a place inside is taken.
 constexpr int kMaxRedraws = 100;
+/// What rounding may put outside of a square [m].
+constexpr double kRounding = 1e-9;
 
 bool is_car(const ob::StateSpace& space) { return space.getType() == ob::STATE_SPACE_SE2; }
 
-Pose sample_square(const Pose& anchor, double half_width, ompl::RNG& rng) {
-    return {anchor.x + rng.uniformReal(-half_width, half_width),
-            anchor.y + rng.uniformReal(-half_width, half_width), rng.uniformReal(-kPi, kPi)};
+Pose sample_square(const Pose& centre, double half_width, ompl::RNG& rng) {
+    return {centre.x + rng.uniformReal(-half_width, half_width),
+            centre.y + rng.uniformReal(-half_width, half_width), rng.uniformReal(-kPi, kPi)};
 }
 
-Pose sample_ellipse(const Region& region, std::size_t index, ompl::RNG& rng) {
-    const Pose& anchor = region.anchors[index];
+Pose sample_ellipse(const Region& region, const Pose& centre, double yaw_deviation,
+                    ompl::RNG& rng) {
     const double radius = std::sqrt(rng.uniform01());
     const double angle = rng.uniformReal(-kPi, kPi);
     const double along = region.half_width * radius * std::cos(angle);
     const double across = region.minor_axis * radius * std::sin(angle);
-    const double c = std::cos(anchor.yaw);
-    const double s = std::sin(anchor.yaw);
-    return {anchor.x + c * along - s * across, anchor.y + s * along + c * across,
-            rng.gaussian(anchor.yaw, region.yaw_deviations[index])};
+    const double c = std::cos(centre.yaw);
+    const double s = std::sin(centre.yaw);
+    return {centre.x + c * along - s * across, centre.y + s * along + c * across,
+            rng.gaussian(centre.yaw, yaw_deviation)};
+}
+
+/// Draws from the whole shape of an anchor.
+Pose sample_shape(const Region& region, std::size_t index, ompl::RNG& rng) {
+    const auto& [dx, dy] = region.offsets[index];
+    const Pose& anchor = region.anchors[index];
+    const Pose centre{anchor.x + dx, anchor.y + dy, anchor.yaw};
+    if (!region.has_heading) return sample_square(centre, region.half_width, rng);
+    return sample_ellipse(region, centre, region.yaw_deviations[index], rng);
+}
+
+bool is_in_square(const Pose& anchor, double half_width, const Pose& pose) {
+    const double offset = std::max(std::abs(pose.x - anchor.x), std::abs(pose.y - anchor.y));
+    return offset <= half_width + kRounding;
+}
+
+bool is_in_region(const Region& region, const Pose& pose) {
+    return std::any_of(region.anchors.begin(), region.anchors.end(), [&](const Pose& anchor) {
+        return is_in_square(anchor, region.half_width, pose);
+    });
 }
 
 }  // namespace
@@ -61,8 +83,13 @@ Pose read_state(const ob::StateSpace& space, const ob::State* state) {
 Pose sample_region(const Region& region, ompl::RNG& rng) {
     const int last = static_cast<int>(region.anchors.size()) - 1;
     const auto index = static_cast<std::size_t>(rng.uniformInt(0, last));
-    if (region.has_heading) return sample_ellipse(region, index, rng);
-    return sample_square(region.anchors[index], region.half_width, rng);
+    Pose pose = sample_shape(region, index, rng);
+    for (int i = 0; i < kMaxRedraws; ++i) {
+        const bool is_near = is_in_square(region.anchors[index], region.half_width, pose);
+        if (is_near || is_in_region(region, pose)) return pose;
+        pose = sample_shape(region, index, rng);
+    }
+    return region.anchors[index];
 }
 
 Pose sample_extent(const Extent& extent, ompl::RNG& rng) {

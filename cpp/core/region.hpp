@@ -18,9 +18,16 @@ namespace planformer {
 /// Without headings the shape is a square of side 2 * half_width, and a car's yaw is uniform. With
 /// headings it is an ellipse with semi-axes (half_width, minor_axis) turned along the heading, and
 /// the yaw is Gaussian round it (Motion Planning Transformers, section III.B), as widely as the
-/// proposal is unsure of it.
+/// proposal is unsure of it. A shape may lie beside its anchor; what of it leaves the squares of
+/// all anchors is cut off.
 struct Region {
-    std::vector<Pose> anchors;  ///< yaw is the predicted heading
+    struct Offset {
+        double x = 0.0;  ///< [m]
+        double y = 0.0;  ///< [m]
+    };
+
+    std::vector<Pose> anchors;    ///< yaw is the predicted heading
+    std::vector<Offset> offsets;  ///< from each anchor to its shape's centre, inside its square
     bool has_heading = false;
     double half_width = 0.0;             ///< [m]
     double minor_axis = 0.0;             ///< [m]

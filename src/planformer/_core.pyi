@@ -52,6 +52,7 @@ class Region:
     def __init__(
         self,
         anchors: NDArray[np.float64],  # (N, 3): x, y [m], yaw [rad]
+        offsets: NDArray[np.float64],  # (N, 2) [m]
         *,
         has_heading: bool,
         half_width: float,

@@ -61,29 +61,53 @@ def distance_to_polyline(points: ArrayLike, polyline: ArrayLike) -> NDArray[np.f
     Raises:
         InvalidParameter: The polyline has no vertex.
     """
+    return _length(offset_to_polyline(points, polyline))
+
+
+def offset_to_polyline(points: ArrayLike, polyline: ArrayLike) -> NDArray[np.float64]:
+    """Way from points to the nearest point of a polyline.
+
+    Args:
+        points: (M, 2) query points in metres.
+        polyline: (N, 2) vertices in metres, N >= 1; a single vertex is a point.
+
+    Returns:
+        (M, 2) vectors in metres.
+
+    Raises:
+        InvalidParameter: The polyline has no vertex.
+    """
     queries = np.asarray(points, dtype=np.float64).reshape(-1, 2)
     vertices = np.asarray(polyline, dtype=np.float64).reshape(-1, 2)
     if len(vertices) == 0:
         raise InvalidParameter("a polyline needs at least one vertex; got none")
-    best = _distance_to_segment(queries, vertices[0], vertices[0])
+    best = _offset_to_segment(queries, vertices[0], vertices[0])
+    distance = _length(best)
     # One pass a segment keeps memory at O(M); paths have few segments, maps have many points.
     for a, b in itertools.pairwise(vertices):
-        np.minimum(best, _distance_to_segment(queries, a, b), out=best)
+        offset = _offset_to_segment(queries, a, b)
+        nearer = _length(offset) < distance
+        best[nearer] = offset[nearer]
+        distance[nearer] = _length(offset[nearer])
     return best
 
 
-def _distance_to_segment(
+def _length(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(M,) lengths of (M, 2) vectors."""
+    return np.asarray(np.hypot(vectors[:, 0], vectors[:, 1]))
+
+
+def _offset_to_segment(
     points: NDArray[np.float64], a: NDArray[np.float64], b: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """(M,) distances from (M, 2) points to the segment from a to b."""
+    """(M, 2) vectors from (M, 2) points to the nearest points of the segment from a to b."""
     direction = b - a
     squared_length = float(direction @ direction)
     if squared_length == 0.0:
         along = np.zeros(len(points))
     else:
         along = np.clip((points - a) @ direction / squared_length, 0.0, 1.0)
-    offset = points - (a + along[:, None] * direction)
-    return np.asarray(np.hypot(offset[:, 0], offset[:, 1]))
+    return np.asarray(a + along[:, None] * direction - points)
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ from planformer.encoding import (
     NetworkScale,
     anchor_headings,
     anchor_labels,
+    anchor_offsets,
     anchor_points,
     region_mask,
 )
@@ -51,6 +52,14 @@ def test_headings_follow_the_path():
     assert corner == pytest.approx([0.5, 0.5], abs=0.1)  # half of it runs right, half of it up
     assert np.array_equal(headings[:, 20, 20], [0, 0])
     assert np.allclose(anchor_headings(anchors, path[::-1]), -headings, atol=1e-5)
+
+
+def test_offsets_lead_the_positive_anchors_to_the_path():
+    anchors = anchor_points(480, 480, COMPACT)
+    offsets = anchor_offsets(anchors, np.array([[2.5, 2.7, 1.0], [12.5, 2.7, 1.0]]))
+    assert offsets[:, 2, 6] == pytest.approx([0, 0.2])
+    assert offsets[:, 2, 1] == pytest.approx([0, 0])  # a metre from the path's end
+    assert offsets[:, 3, 6] == pytest.approx([0, 0])
 
 
 def test_headings_exist_only_at_labels():

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 import planformer as pf
 from planformer.encoding import NetworkScale, region_mask
+from planformer.errors import InvalidParameter
 from planformer.guidance.region import RELAXATION, connecting_threshold, make_region, spread
 from planformer.planning import Problem, is_connected
 
@@ -92,6 +93,22 @@ def test_samples_are_drawn_round_the_selected_anchors_in_the_world_frame(room):
     assert sampling.half_width == pytest.approx(0.8)
     assert sampling.headings is None
     assert sampling.area == pytest.approx(1.6**2)
+
+
+def test_offsets_turn_with_the_map_and_stay_in_the_patch(room):
+    offsets = np.zeros((4, 6, 2))
+    offsets[...] = 0.5, -3.0
+    region = make_region(
+        room, np.ones((4, 6), np.float32), SCALE, offsets=offsets, threshold=0.5
+    )
+    centres = region.sampling().anchors + region.sampling().offsets
+    local = room.grid.frame.to_local(region.sampling().anchors) + (0.5, -0.8)
+    np.testing.assert_allclose(centres, room.grid.frame.to_world(local), atol=1e-12)
+
+
+def test_offsets_of_another_shape_are_refused(room):
+    with pytest.raises(InvalidParameter, match=r"offsets must have the shape \(4, 6, 2\)"):
+        make_region(room, np.ones((4, 6), np.float32), SCALE, offsets=np.zeros((4, 6)))
 
 
 def test_headings_turn_with_the_map(room):

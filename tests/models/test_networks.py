@@ -58,21 +58,30 @@ def test_parameter_counts():
 @pytest.mark.parametrize("name", PRESETS)
 def test_presets_make_a_token_a_metre(name):
     config = preset(name)
-    logits, heading = _evaluate(create_model(name), _inputs(config, 480, 480))
-    assert logits.shape == (1, 1, 24, 24)
-    assert (heading is not None) == config.headings
+    proposal = _evaluate(create_model(name), _inputs(config, 480, 480))
+    assert proposal.logits.shape == (1, 1, 24, 24)
+    assert (proposal.heading is not None) == config.headings
+    assert (proposal.offset is not None) == config.offsets
 
 
 @pytest.mark.parametrize("headings", [False, True])
 @pytest.mark.parametrize("size", [(20, 20), (20, 60), (60, 40), (520, 500), (840, 20)])
-@pytest.mark.parametrize("make", [_transformer, lambda h: MPTConfig(headings=h)])
+@pytest.mark.parametrize(
+    "make",
+    [
+        _transformer,
+        lambda h: MPTConfig(headings=h),
+        lambda h: MPTConfig(headings=h, offsets=True),
+    ],
+)
 def test_any_multiple_of_the_stride(make, size, headings):
     config = make(headings)
     tokens = (size[0] // 20, size[1] // 20)
-    logits, heading = _evaluate(create_model(config), _inputs(config, *size, batch=2))
+    logits, heading, offset = _evaluate(create_model(config), _inputs(config, *size, batch=2))
     assert logits.shape == (2, 1, *tokens)
     assert torch.isfinite(logits).all()
     assert heading is None if not headings else heading.shape == (2, 2, *tokens)
+    assert offset is None if not config.offsets else offset.shape == (2, 2, *tokens)
 
 
 def _positions(shifted):

@@ -28,10 +28,11 @@ def region_of(anchors, headings=None, half_width=0.4):
     return SamplingRegion(anchors, headings, half_width, area)
 
 
-def draw(anchors, headings, half_width, count, seed=1):
+def draw(anchors, headings, half_width, count, seed=1, offsets=None):
     poses = np.column_stack((anchors, np.zeros(len(anchors)) if headings is None else headings))
     region = _core.Region(
         poses,
+        np.zeros((len(poses), 2)) if offsets is None else np.asarray(offsets, float),
         has_heading=headings is not None,
         half_width=half_width,
         minor_axis=ELLIPSE_ASPECT * half_width,
@@ -74,6 +75,7 @@ def test_each_anchor_has_its_own_spread_of_the_yaw():
     deviations = np.array([0.1, 0.8])
     region = _core.Region(
         np.array([(0.0, 0.0, 1.0), (10.0, 0.0, -2.0)]),
+        np.zeros((2, 2)),
         has_heading=True,
         half_width=0.4,
         minor_axis=0.2,
@@ -94,6 +96,39 @@ def test_a_spread_for_each_anchor_is_needed():
             SamplingRegion(anchors, headings, 0.4, 1.0, deviations)
     with pytest.raises(InvalidParameter, match="go with headings"):
         SamplingRegion(anchors, None, 0.4, 1.0, np.ones(2))
+
+
+@settings(max_examples=30)
+@given(
+    st.lists(st.tuples(*4 * [st.floats(-0.4, 0.4)], st.floats(-4, 4)), min_size=1, max_size=5),
+    st.booleans(),
+)
+def test_moved_shapes_stay_in_the_squares_of_the_anchors(rows, has_headings):
+    values = np.array(rows)
+    anchors = np.round(10 * values[:, :2]) * 0.3
+    headings = values[:, 4] if has_headings else None
+    samples = draw(anchors, headings, 0.4, 500, offsets=values[:, 2:4])
+    apart = np.abs(samples[:, None, :2] - anchors).max(axis=2)
+    assert apart.min(axis=1).max() <= 0.4 + 1e-6
+
+
+def test_shapes_move_by_their_offsets():
+    anchors = [(0.0, 0.0), (10.0, 0.0)]
+    offsets = [(0.0, 0.3), (0.0, -0.1)]
+    samples = draw(anchors, np.zeros(2), 0.4, 8000, offsets=offsets)
+    for x, y in ((0.0, 0.3), (10.0, -0.1)):
+        near = samples[np.abs(samples[:, 0] - x) < 1.0]
+        assert near[:, 0].mean() == pytest.approx(x, abs=0.02)
+        above, below = (near[:, 1] > y).sum(), (near[:, 1] < y).sum()
+        # The part above 0.4 is cut off.
+        assert (0.6 < above / below < 0.9) if y == 0.3 else (0.9 < above / below < 1.1)
+
+
+def test_offsets_of_another_shape_are_refused():
+    with pytest.raises(InvalidParameter, match="offsets must have shape"):
+        SamplingRegion(np.zeros((2, 2)), None, 0.4, 1.0, offsets=np.zeros(2))
+    with pytest.raises(InvalidParameter, match="offsets must be finite"):
+        SamplingRegion(np.zeros((2, 2)), None, 0.4, 1.0, offsets=np.full((2, 2), np.nan))
 
 
 def test_anchors_are_drawn_equally_often():

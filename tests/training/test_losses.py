@@ -14,9 +14,11 @@ import torch.nn.functional as F
 from planformer.models import Proposal
 from planformer.training import TrainConfig
 from planformer.training.losses import (
+    OFFSET_UNIT,
     balanced_cross_entropy,
     cosine_loss,
     imitation_loss,
+    offset_loss,
     proposal_loss,
     von_mises_loss,
 )
@@ -31,7 +33,8 @@ def _labels():
 
 
 def _batch(labels):
-    return Batch(labels, labels, labels, torch.empty(3, 0, 10, 10), torch.ones_like(labels))
+    nothing = torch.empty(3, 0, 10, 10)
+    return Batch(labels, labels, labels, nothing, nothing, torch.ones_like(labels))
 
 
 def test_balanced_loss_ignores_how_many_negatives_there_are():
@@ -60,11 +63,14 @@ def test_anchors_beyond_the_map_count_for_nothing(recipe, focal_gamma):
     config = TrainConfig(steps=1, recipe=recipe, focal_gamma=focal_gamma)
     labels = _labels()
     logits = torch.linspace(-3, 3, 300).reshape(3, 1, 10, 10)
-    heading = torch.zeros(3, 2, 10, 10)
+    vectors = torch.zeros(3, 2, 10, 10)
     alone = _batch(labels)
     margin = (0, 4, 0, 7)
     padded = Batch(
-        *(F.pad(tensor, margin) for tensor in (labels, labels, labels, heading, alone.inside))
+        *(
+            F.pad(tensor, margin)
+            for tensor in (labels, labels, labels, vectors, vectors, alone.inside)
+        )
     )
     losses = []
     for filler in (-9.0, 0.0, 9.0):
@@ -89,6 +95,27 @@ def test_focal_loss_makes_light_of_what_is_right():
             proposal, _batch(labels), plain
         )
         assert least < ratio < most
+
+
+def test_offsets_count_only_where_there_is_a_path():
+    positive = _labels()
+    target = torch.randn(3, 2, 10, 10, generator=torch.Generator().manual_seed(0))
+    assert offset_loss(target, target, positive) == 0
+    elsewhere = target + (1 - positive)
+    assert offset_loss(elsewhere, target, positive) == 0
+    aside = target + torch.tensor([0.1, -0.3]).reshape(1, 2, 1, 1)
+    assert offset_loss(aside, target, positive) == pytest.approx(0.4 / OFFSET_UNIT)
+    assert offset_loss(aside, target, torch.zeros_like(positive)) == 0
+
+
+def test_a_network_with_offsets_is_punished_for_wrong_ones():
+    labels = _labels()
+    offset = torch.zeros(3, 2, 10, 10)
+    batch = _batch(labels)._replace(offset=offset)
+    right, wrong = (Proposal(labels, None, offset + error) for error in (0.0, 0.5))
+    config = TrainConfig(steps=1)
+    difference = proposal_loss(wrong, batch, config) - proposal_loss(right, batch, config)
+    assert float(difference) == pytest.approx(1.0 / OFFSET_UNIT)
 
 
 def test_imitation_is_best_where_pupil_and_teacher_agree():

@@ -13,6 +13,7 @@ from planformer.encoding import (
     NetworkScale,
     anchor_headings,
     anchor_labels,
+    anchor_offsets,
     anchor_points,
     encode_query,
     network_map,
@@ -35,7 +36,7 @@ _DETOUR_CHANNEL = 4
 
 @dataclass(frozen=True)
 class IdealProposer:
-    """Selects the anchors within 0.7 m of a path, with the path's headings for a car.
+    """Selects the anchors within 0.7 m of a path; for a car with its headings and the way to it.
 
     Attributes:
         path: (N, 2) or (N, 3) path in the world frame.
@@ -52,13 +53,19 @@ class IdealProposer:
         rows, columns = (self.scale.padded(_pixels(side * ratio)) for side in (height, width))
         anchors = anchor_points(rows, columns, self.scale)
         path = problem.grid.frame.to_local(self.path)
-        headings = None
+        headings = offsets = None
         if problem.robot.state_dimension == 3:
             cos, sin = anchor_headings(anchors, path).astype(np.float64)
             headings = np.arctan2(sin, cos)
+            offsets = np.moveaxis(anchor_offsets(anchors, path).astype(np.float64), 0, -1)
         labels = anchor_labels(anchors, path).astype(np.float32)
         return make_region(
-            problem, labels, self.scale, headings=headings, threshold=PAPER_THRESHOLD
+            problem,
+            labels,
+            self.scale,
+            headings=headings,
+            offsets=offsets,
+            threshold=PAPER_THRESHOLD,
         )
 
 

@@ -4,6 +4,7 @@ from planformer.encoding.anchors import (
     LABEL_DISTANCE,
     anchor_headings,
     anchor_labels,
+    anchor_offsets,
     anchor_points,
     region_mask,
 )
@@ -17,6 +18,7 @@ __all__ = [
     "QueryKind",
     "anchor_headings",
     "anchor_labels",
+    "anchor_offsets",
     "anchor_points",
     "encode_query",
     "network_map",

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from planformer.encoding.scale import NetworkScale
 from planformer.errors import InvalidParameter
-from planformer.geometry import distance_to_polyline
+from planformer.geometry import distance_to_polyline, offset_to_polyline
 
 LABEL_DISTANCE = 0.7
 """Anchors no farther than this from the path, in metres, are positive (as in the paper's code)."""
@@ -77,6 +77,24 @@ def anchor_headings(anchors: NDArray[np.float64], path: ArrayLike) -> NDArray[np
     mean = near @ directions / np.maximum(near.sum(axis=1, keepdims=True), 1)
     headings: NDArray[np.float32] = mean.T.reshape(2, *anchors.shape[:2]).astype(np.float32)
     return headings
+
+
+def anchor_offsets(anchors: NDArray[np.float64], path: ArrayLike) -> NDArray[np.float32]:
+    """Way from each anchor to the path.
+
+    Args:
+        anchors: (h, w, 2) points in metres.
+        path: (N, 2) or (N, 3) path in metres; yaw does not count.
+
+    Returns:
+        (2, h, w) float32 vectors (x, y) in metres to the nearest point of a path within 0.7 m; zero
+        where there is no path.
+    """
+    vertices = np.asarray(path, dtype=np.float64)[:, :2]
+    offsets = offset_to_polyline(anchors, vertices)
+    offsets[np.hypot(*offsets.T) > LABEL_DISTANCE] = 0.0
+    vectors: NDArray[np.float32] = offsets.T.reshape(2, *anchors.shape[:2]).astype(np.float32)
+    return vectors
 
 
 def _densified(

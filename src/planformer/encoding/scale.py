@@ -38,6 +38,7 @@ class NetworkScale:
         query: How start and goal are encoded.
         query_stride: Network pixels a query pixel; 1 = the query has the map's resolution.
         headings: Whether start, goal and the prediction have a heading (SE(2)).
+        offsets: Whether the prediction has the way from each anchor to the path.
 
     Raises:
         InvalidParameter: A value is out of range.
@@ -50,6 +51,7 @@ class NetworkScale:
     query: QueryKind = QueryKind.WAVEFRONT
     query_stride: int = 5
     headings: bool = False
+    offsets: bool = False
 
     def __post_init__(self) -> None:
         try:

@@ -12,7 +12,7 @@ from planformer.encoding import NetworkScale
 
 OPSET = 17
 MAP, QUERY = "map", "query"
-PROBABILITY, HEADING = "probability", "heading"
+PROBABILITY, HEADING, OFFSET = "probability", "heading", "offset"
 
 
 class DeployedProposer(nn.Module):
@@ -26,7 +26,7 @@ class DeployedProposer(nn.Module):
         super().__init__()
         self.network = network
 
-    def forward(self, occupancy: Tensor, query: Tensor) -> Tensor | tuple[Tensor, Tensor]:
+    def forward(self, occupancy: Tensor, query: Tensor) -> tuple[Tensor, ...]:
         """Propose a region.
 
         Args:
@@ -34,12 +34,18 @@ class DeployedProposer(nn.Module):
             query: (B, C, H/s, W/s) float32.
 
         Returns:
-            (B, 1, h, w) float32 probabilities and, in SE(2), (B, 2, h, w) float32 headings as in
-            `Proposal`.
+            (B, 1, h, w) float32 probabilities and, where the network predicts them, (B, 2, h, w)
+            float32 headings and offsets as in `Proposal`.
         """
-        logits, heading = self.network(occupancy.to(query.dtype), query)
-        probability = torch.sigmoid(logits)
-        return probability if heading is None else (probability, heading)
+        proposal = self.network(occupancy.to(query.dtype), query)
+        optional = (proposal.heading, proposal.offset)
+        predicted = (output for output in optional if output is not None)
+        return torch.sigmoid(proposal.logits), *predicted
+
+
+def output_names(scale: NetworkScale) -> list[str]:
+    """Names of a network's outputs, in their order."""
+    return [PROBABILITY, *[HEADING] * scale.headings, *[OFFSET] * scale.offsets]
 
 
 def example_inputs(
@@ -62,10 +68,9 @@ def to_onnx(deployed: DeployedProposer, scale: NetworkScale) -> bytes:
         scale: Its scale.
 
     Returns:
-        The serialised model; inputs "map" and "query", outputs "probability" and, in SE(2),
-        "heading".
+        The serialised model; inputs "map" and "query", outputs as in `output_names`.
     """
-    outputs = [PROBABILITY, HEADING] if scale.headings else [PROBABILITY]
+    outputs = output_names(scale)
     inputs = example_inputs(scale, 12 * scale.stride, 15 * scale.stride)
     file = io.BytesIO()
     with warnings.catch_warnings():

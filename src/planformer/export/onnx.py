@@ -17,7 +17,8 @@ from planformer.files import whole_file
 from planformer.models import load_checkpoint
 
 TOLERANCE = 1e-4
-"""Largest difference of a probability or heading component between ONNX Runtime and PyTorch."""
+"""Largest difference of a probability, or a component of a heading or an offset, between ONNX
+Runtime and PyTorch."""
 
 CHECKED_SIZES = ((480, 480), (240, 360), (360, 240), (780, 780), (20, 40))
 """Map sizes (H, W) in pixels at which both are compared."""
@@ -93,8 +94,8 @@ def largest_difference(content: bytes, deployed: DeployedProposer, scale: Networ
         scale: The network's scale.
 
     Returns:
-        The largest absolute difference of a probability or of a component of a heading, the latter
-        over the heading's length where that exceeds 1. NaN if there is one.
+        The largest absolute difference of a probability, or of a component of a heading or an
+        offset, the latter two over the vector's length where that exceeds 1. NaN if there is one.
     """
     import onnxruntime
 
@@ -105,13 +106,9 @@ def largest_difference(content: bytes, deployed: DeployedProposer, scale: Networ
         actual = session.run(None, {MAP: pixels.numpy(), QUERY: query.numpy()})
         with torch.no_grad():
             expected = deployed(pixels, query)
-        if not scale.headings:
-            differences.append(_largest(actual[0] - expected.numpy()))
-            continue
-        probability, heading = expected
-        length = heading.norm(dim=1, keepdim=True).clamp(min=1)
-        differences.append(_largest(actual[0] - probability.numpy()))
-        differences.append(_largest((actual[1] - heading.numpy()) / length.numpy()))
+        for of_onnx, of_torch in zip(actual, expected, strict=True):
+            length = of_torch.norm(dim=1, keepdim=True).clamp(min=1)
+            differences.append(_largest((of_onnx - of_torch.numpy()) / length.numpy()))
     return float(np.max(differences))
 
 

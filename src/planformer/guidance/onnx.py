@@ -29,11 +29,14 @@ class Prediction(NamedTuple):
         probability: (h, w) float32.
         headings: (h, w) float64 in rad in the map's own frame; None in the plane.
         yaw_deviations: (h, w) float64, how far [rad] the yaw strays from each heading.
+        offsets: (h, w, 2) float64 way in metres, in the map's own frame, from each anchor to the
+            path; None if not predicted.
     """
 
     probability: NDArray[np.float32]
     headings: NDArray[np.float64] | None = None
     yaw_deviations: NDArray[np.float64] | None = None
+    offsets: NDArray[np.float64] | None = None
 
 
 @dataclass(frozen=True)
@@ -60,12 +63,16 @@ class OnnxNetwork:
         query = encode_query(pixels, problem.local_start, problem.local_goal, scale)
         outputs = self._run({"map": pixels[None, None], "query": query[None]})
         self._check(outputs, tuple(size // scale.stride for size in pixels.shape))
-        if not scale.headings:
-            return Prediction(outputs[0][0, 0])
-        x, y = outputs[1][0].astype(np.float64)
-        # The circular variance of a von Mises distribution nears 1 / concentration.
-        spread = np.clip(np.hypot(x, y), *_CONCENTRATIONS) ** -0.5
-        return Prediction(outputs[0][0, 0], np.arctan2(y, x), spread)
+        prediction = Prediction(outputs.pop(0)[0, 0])
+        if scale.headings:
+            x, y = outputs.pop(0)[0].astype(np.float64)
+            # The circular variance of a von Mises distribution nears 1 / concentration.
+            spread = np.clip(np.hypot(x, y), *_CONCENTRATIONS) ** -0.5
+            prediction = prediction._replace(headings=np.arctan2(y, x), yaw_deviations=spread)
+        if scale.offsets:
+            vectors = outputs.pop(0)[0].astype(np.float64)
+            prediction = prediction._replace(offsets=np.moveaxis(vectors, 0, -1))
+        return prediction
 
     def _run(self, inputs: dict[str, NDArray[Any]]) -> list[NDArray[np.float32]]:
         try:
@@ -77,7 +84,8 @@ class OnnxNetwork:
         return outputs
 
     def _check(self, outputs: list[NDArray[np.float32]], tokens: tuple[int, ...]) -> None:
-        expected = [(1, 1, *tokens), (1, 2, *tokens)][: 1 + self.weights.scale.headings]
+        vectors = self.weights.scale.headings + self.weights.scale.offsets
+        expected = [(1, 1, *tokens), *[(1, 2, *tokens)] * vectors]
         shapes = [np.shape(output) for output in outputs]
         if shapes != expected:
             raise WeightsMismatch(
@@ -123,6 +131,7 @@ class OnnxProposer:
             self.network.weights.scale,
             headings=prediction.headings,
             yaw_deviations=prediction.yaw_deviations,
+            offsets=prediction.offsets,
             threshold=self.threshold,
         )
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from planformer import _core
 from planformer.encoding import NetworkScale, anchor_points
 from planformer.errors import InvalidParameter
+from planformer.geometry import Frame
 from planformer.maps import OccupancyGrid
 from planformer.planning import Problem, SamplingRegion, is_connected
 
@@ -36,6 +37,9 @@ class Region:
         cell_area: Area of a cell of the map in square metres.
         yaw_deviations: (h, w) float64 standard deviation of the yaw round each heading in rad; None
             in the plane, or for the same everywhere.
+        offsets: (h, w, 2) float64 predicted way in metres, in the world frame, from each anchor to
+            the path, None if not predicted. Samples are drawn round the anchors so moved, but
+            inside the selected patches.
     """
 
     probability: NDArray[np.float32]
@@ -47,6 +51,7 @@ class Region:
     headings: NDArray[np.float64] | None
     cell_area: float
     yaw_deviations: NDArray[np.float64] | None = None
+    offsets: NDArray[np.float64] | None = None
 
     @property
     def selected(self) -> NDArray[np.bool_]:
@@ -67,6 +72,7 @@ class Region:
             anchors=self.anchors[chosen],
             headings=None if self.headings is None else self.headings[chosen],
             yaw_deviations=None if self.yaw_deviations is None else self.yaw_deviations[chosen],
+            offsets=None if self.offsets is None else self.offsets[chosen],
             half_width=0.5 * self.patch,
             # At least a cell: the patches of a padded map may lie beside it.
             area=max(int(self.mask.sum()), 1) * self.cell_area,
@@ -88,6 +94,7 @@ def make_region(
     *,
     headings: NDArray[np.float64] | None = None,
     yaw_deviations: NDArray[np.float64] | None = None,
+    offsets: NDArray[np.float64] | None = None,
     threshold: float | None = None,
 ) -> Region:
     """Select anchors and lay their patches over the map.
@@ -98,20 +105,19 @@ def make_region(
         scale: Scale of the network that predicted them.
         headings: (h, w) headings in rad in the map's own frame, None in the plane.
         yaw_deviations: (h, w) standard deviation of the yaw round them in rad, None for 0.35.
+        offsets: (h, w, 2) way in metres, in the map's own frame, from each anchor to the path; None
+            to draw samples round the anchors themselves.
         threshold: Fixed threshold in [0, 1]; 0.5 is the paper's. None chooses it for this query:
             the highest one at which start and goal are connected, relaxed.
 
     Raises:
-        InvalidParameter: The probabilities or headings are no (h, w) arrays of finite numbers, or
-            a probability is outside [0, 1].
+        InvalidParameter: The probabilities, headings or offsets have other shapes, or a probability
+            is outside [0, 1].
     """
     probability = _checked_probability(probability)
-    for name, values in (("headings", headings), ("yaw_deviations", yaw_deviations)):
-        if values is not None and values.shape != probability.shape:
-            raise InvalidParameter(
-                f"{name} must have the shape of the probability, {probability.shape}; "
-                f"got {values.shape}"
-            )
+    _check_shape("headings", headings, probability.shape)
+    _check_shape("yaw_deviations", yaw_deviations, probability.shape)
+    _check_shape("offsets", offsets, (*probability.shape, 2))
     height, width = probability.shape
     local = anchor_points(height * scale.stride, width * scale.stride, scale)
     cells = spread(probability, problem.grid, scale)
@@ -129,7 +135,21 @@ def make_region(
         headings=None if headings is None else headings + frame.yaw,
         cell_area=problem.grid.resolution**2,
         yaw_deviations=yaw_deviations,
+        offsets=None if offsets is None else _within_patch(offsets, scale, frame),
     )
+
+
+def _within_patch(
+    offsets: NDArray[np.float64], scale: NetworkScale, frame: Frame
+) -> NDArray[np.float64]:
+    """(h, w, 2) offsets that stay in the anchors' patches, turned to the world frame."""
+    reach = 0.5 * scale.patch * scale.resolution
+    return Frame(yaw=frame.yaw).to_world(np.clip(offsets, -reach, reach))
+
+
+def _check_shape(name: str, values: NDArray[np.float64] | None, shape: tuple[int, ...]) -> None:
+    if values is not None and values.shape != shape:
+        raise InvalidParameter(f"{name} must have the shape {shape}; got {values.shape}")
 
 
 def _checked_probability(probability: NDArray[np.float32]) -> NDArray[np.float32]:

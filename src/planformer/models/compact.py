@@ -43,7 +43,8 @@ class CompactMPT(nn.Module):
         )
         self.groups = nn.Sequential(*(_group(body) for _ in range(body.groups)))
         self.norm = ChannelNorm(body.width)
-        self.head = nn.Conv2d(body.width, 3 if scale.headings else 1, 1)
+        self.headings, self.offsets = scale.headings, scale.offsets
+        self.head = nn.Conv2d(body.width, 1 + 2 * scale.headings + 2 * scale.offsets, 1)
 
     def forward(self, occupancy: Tensor, query: Tensor) -> Proposal:
         """Propose a region.
@@ -57,7 +58,11 @@ class CompactMPT(nn.Module):
         """
         tokens = self.stem(torch.cat([self.pack(occupancy), query], dim=1))
         output = self.head(self.norm(self.groups(tokens)))
-        return Proposal(output[:, :1], output[:, 1:] if output.shape[1] > 1 else None)
+        return Proposal(
+            output[:, :1],
+            heading=output[:, 1:3] if self.headings else None,
+            offset=output[:, -2:] if self.offsets else None,
+        )
 
 
 def _group(body: CompactBody) -> nn.Sequential:

@@ -102,14 +102,16 @@ class MPTConfig:
         query: How start and goal are encoded: "square" for a `TransformerBody`, "wavefront" or
             "markers" for a `CompactBody`.
         headings: Whether the network takes and predicts headings (SE(2)).
+        offsets: Whether it predicts the way from each anchor to the path; not the paper's body.
 
     Raises:
-        InvalidParameter: The query does not fit the body.
+        InvalidParameter: The query or the offsets do not fit the body.
     """
 
     body: TransformerBody | CompactBody = field(default_factory=CompactBody)
     query: QueryKind = QueryKind.WAVEFRONT
     headings: bool = False
+    offsets: bool = False
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "query", self.scale.query)
@@ -118,6 +120,8 @@ class MPTConfig:
                 "a transformer body takes the query 'square', a compact one 'wavefront' or "
                 f"'markers'; got {type(self.body).__name__} with {self.query.value!r}"
             )
+        if self.offsets and isinstance(self.body, TransformerBody):
+            raise InvalidParameter("a transformer body predicts no offsets; use a compact one")
 
     @property
     def scale(self) -> NetworkScale:
@@ -128,13 +132,19 @@ class MPTConfig:
             query=self.query,
             query_stride=1 if transformer else 5,
             headings=self.headings,
+            offsets=self.offsets,
         )
 
     def to_dict(self) -> dict[str, Any]:
         """The configuration as JSON-compatible values."""
         name = next(name for name, body in _BODIES.items() if isinstance(self.body, body))
         body = {"architecture": name, **asdict(self.body)}
-        return {"body": body, "query": self.query.value, "headings": self.headings}
+        return {
+            "body": body,
+            "query": self.query.value,
+            "headings": self.headings,
+            "offsets": self.offsets,
+        }
 
     @classmethod
     def from_dict(cls, values: Mapping[str, Any]) -> MPTConfig:
@@ -173,7 +183,7 @@ PRESETS: dict[str, MPTConfig] = {
     "paper-fixed-encoding": MPTConfig(TransformerBody(shift_positions=False), QueryKind.SQUARE),
     "small": MPTConfig(),
     "tiny": MPTConfig(CompactBody(width=48, stem=24, blocks=2, expansion=2)),
-    "dubins": MPTConfig(headings=True),
+    "dubins": MPTConfig(headings=True, offsets=True),
 }
 
 

@@ -14,7 +14,9 @@ class Proposal(NamedTuple):
         logits: (B, 1, h, w) log-odds that a good path runs through the token's patch.
         heading: (B, 2, h, w) vector along the direction of travel, as long as the network is sure:
             its length is the concentration of a von Mises distribution. None in the plane.
+        offset: (B, 2, h, w) way in metres from each anchor to the path. None if not predicted.
     """
 
     logits: Tensor
-    heading: Tensor | None
+    heading: Tensor | None = None
+    offset: Tensor | None = None

@@ -20,7 +20,8 @@ class SamplingRegion:
     """Shapes of one size round anchor points, in the world frame.
 
     Without headings the shapes are squares and a car's yaw is uniform; with headings they are
-    ellipses along them (Motion Planning Transformers, section III.B).
+    ellipses along them (Motion Planning Transformers, section III.B). Shapes with an offset from
+    their anchors are cut off where the anchors' squares end.
 
     Attributes:
         anchors: (K, 2) float64 anchor points in metres, K >= 1.
@@ -29,6 +30,8 @@ class SamplingRegion:
         area: Area of the union of the shapes in square metres.
         yaw_deviations: (K,) float64 standard deviation of the yaw round each heading in rad, > 0;
             None for 0.35 rad everywhere.
+        offsets: (K, 2) float64 way in metres from each anchor to the centre of its shape, inside
+            its square; None for shapes round the anchors themselves.
 
     Raises:
         InvalidParameter: Empty, mismatched or not finite arrays, or a size that is not positive.
@@ -39,6 +42,7 @@ class SamplingRegion:
     half_width: float
     area: float
     yaw_deviations: NDArray[np.float64] | None = None
+    offsets: NDArray[np.float64] | None = None
 
     def __post_init__(self) -> None:
         if self.anchors.ndim != 2 or self.anchors.shape[1] != 2 or len(self.anchors) == 0:
@@ -63,6 +67,10 @@ class SamplingRegion:
             raise InvalidParameter(
                 f"half_width and area must be finite and > 0; got {self.half_width} and {self.area}"
             )
-        values = (self.anchors, () if self.headings is None else self.headings)
+        if self.offsets is not None and self.offsets.shape != self.anchors.shape:
+            raise InvalidParameter(
+                f"offsets must have shape {self.anchors.shape}; got {self.offsets.shape}"
+            )
+        values = [v for v in (self.anchors, self.headings, self.offsets) if v is not None]
         if not all(np.isfinite(value).all() for value in values):
-            raise InvalidParameter("anchors and headings must be finite")
+            raise InvalidParameter("anchors, headings and offsets must be finite")

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from planformer import _core
 from planformer.errors import InvalidParameter, UnknownPlanner
-from planformer.geometry import wrap_angle
+from planformer.geometry import Frame, wrap_angle
 from planformer.planning.problem import Problem, State
 from planformer.planning.result import PlanResult, PlanStatus, Tree
 from planformer.planning.sampling import ELLIPSE_ASPECT, YAW_DEVIATION, SamplingRegion
@@ -163,6 +163,9 @@ def _core_region(region: SamplingRegion, problem: Problem) -> _core.Region:
     poses = problem.grid.frame.to_local(np.column_stack((region.anchors, headings)))
     return _core.Region(
         np.ascontiguousarray(poses),
+        np.zeros_like(region.anchors)
+        if region.offsets is None
+        else Frame(yaw=problem.grid.frame.yaw).to_local(region.offsets),
         has_heading=region.headings is not None,
         half_width=region.half_width,
         minor_axis=ELLIPSE_ASPECT * region.half_width,

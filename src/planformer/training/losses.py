@@ -10,9 +10,12 @@ from planformer.models.proposal import Proposal
 from planformer.training.config import Recipe, TrainConfig
 from planformer.training.samples import Batch
 
+OFFSET_UNIT = 0.2
+"""Error in metres of an anchor's offset that costs as much as a loss of 1 in its class."""
+
 
 def proposal_loss(proposal: Proposal, batch: Batch, config: TrainConfig) -> Tensor:
-    """Loss of a batch: the anchors' classes and, where predicted, the headings.
+    """Loss of a batch: the anchors' classes and, where predicted, the headings and the offsets.
 
     Args:
         proposal: The network's output.
@@ -27,10 +30,12 @@ def proposal_loss(proposal: Proposal, batch: Batch, config: TrainConfig) -> Tens
         loss = balanced_cross_entropy(logits, batch.positive, batch.inside)
     else:
         loss = weighted_cross_entropy(logits, batch, config)
-    if proposal.heading is None:
-        return loss
-    of_heading = cosine_loss if config.recipe is Recipe.PAPER else von_mises_loss
-    return loss + of_heading(proposal.heading.float(), batch.heading)
+    if proposal.heading is not None:
+        of_heading = cosine_loss if config.recipe is Recipe.PAPER else von_mises_loss
+        loss = loss + of_heading(proposal.heading.float(), batch.heading)
+    if proposal.offset is not None:
+        loss = loss + offset_loss(proposal.offset.float(), batch.offset, batch.positive)
+    return loss
 
 
 def weighted_cross_entropy(logits: Tensor, batch: Batch, config: TrainConfig) -> Tensor:
@@ -118,6 +123,22 @@ def von_mises_loss(heading: Tensor, target: Tensor) -> Tensor:
     concentration = heading.norm(dim=1)
     log_normaliser = torch.special.i0e(concentration).log() + concentration
     return _mean_labelled(log_normaliser - (heading * target).sum(dim=1), target)
+
+
+def offset_loss(offset: Tensor, target: Tensor, positive: Tensor) -> Tensor:
+    """How far the anchors, moved by their offsets, are from the path.
+
+    Args:
+        offset: (B, 2, h, w) in metres.
+        target: (B, 2, h, w) way from each anchor to the path in metres.
+        positive: (B, 1, h, w), 1 at the anchors that have a target.
+
+    Returns:
+        The mean over these anchors of both components' absolute errors, in units of `OFFSET_UNIT`.
+    """
+    labelled = (positive >= 1.0).float()
+    error = ((offset - target).abs() * labelled).sum() / labelled.sum().clamp(min=1)
+    return error / OFFSET_UNIT
 
 
 def _mean_labelled(loss: Tensor, target: Tensor) -> Tensor:

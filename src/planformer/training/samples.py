@@ -17,6 +17,7 @@ from planformer.encoding import (
     NetworkScale,
     anchor_headings,
     anchor_labels,
+    anchor_offsets,
     anchor_points,
     encode_query,
     network_map,
@@ -38,6 +39,8 @@ class Batch(NamedTuple):
         positive: (B, 1, h, w) float32, 1 at the anchors near the path.
         heading: (B, 2, h, w) float32 direction of travel at those anchors; (B, 0, h, w) without
             headings.
+        offset: (B, 2, h, w) float32 way in metres from those anchors to the path; (B, 0, h, w)
+            without offsets.
         inside: (B, 1, h, w) float32, 1 at the anchors of the problem's own map, 0 beyond it.
     """
 
@@ -45,6 +48,7 @@ class Batch(NamedTuple):
     query: Tensor
     positive: Tensor
     heading: Tensor
+    offset: Tensor
     inside: Tensor
 
     def to(self, device: torch.device) -> Batch:
@@ -77,7 +81,8 @@ def encode_examples(
         inside[: pixels.shape[0] // scale.stride, : pixels.shape[1] // scale.stride] = 1.0
         positive = inside * _labels(anchors, example.path, soft_labels)
         heading = inside * _headings(anchors, example.path, scale)
-        rows.append((padded[None], query, positive[None], heading, inside[None]))
+        offset = inside * _offsets(anchors, example.path, scale)
+        rows.append((padded[None], query, positive[None], heading, offset, inside[None]))
     return Batch(*(torch.from_numpy(np.stack(column)) for column in zip(*rows, strict=True)))
 
 
@@ -98,6 +103,15 @@ def _headings(
     """(2, h, w) labels of a network with headings; (0, h, w) otherwise."""
     if scale.headings:
         return anchor_headings(anchors, path)
+    return np.empty((0, *anchors.shape[:2]), np.float32)
+
+
+def _offsets(
+    anchors: NDArray[np.float64], path: NDArray[np.float64], scale: NetworkScale
+) -> NDArray[np.float32]:
+    """(2, h, w) labels of a network with offsets; (0, h, w) otherwise."""
+    if scale.offsets:
+        return anchor_offsets(anchors, path)
     return np.empty((0, *anchors.shape[:2]), np.float32)
 
 
