@@ -27,8 +27,9 @@ NumpyArray<std::uint32_t> edges_of(const Tree& tree) {
 using OffsetArray = nb::ndarray<const double, nb::shape<-1, 2>, nb::c_contig, nb::device::cpu>;
 using YawArray = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 
-Region make_region(const PosesArray& anchors, const OffsetArray& offsets, bool has_heading, double half_width,
-                   double minor_axis, const YawArray& yaw_deviations, double area) {
+Region make_region(const PosesArray& anchors, const OffsetArray& offsets, bool has_heading,
+                   double half_width, double minor_axis, const YawArray& yaw_deviations,
+                   double area) {
     if (anchors.shape(0) == 0) throw nb::value_error("a region needs at least one anchor");
     if (yaw_deviations.shape(0) != anchors.shape(0) || offsets.shape(0) != anchors.shape(0)) {
         throw nb::value_error("a region needs an offset and a yaw deviation for each anchor");
@@ -121,9 +122,9 @@ void register_planning(nb::module_& m) {
         .def("cancel", &Cancellation::cancel, "End the plans that hold this object; thread-safe.")
         .def_prop_ro("is_cancelled", &Cancellation::is_cancelled);
     nb::class_<Region>(m, "Region")
-        .def(nb::new_(&make_region), nb::arg("anchors"), nb::arg("offsets"), nb::kw_only(), nb::arg("has_heading"),
-             nb::arg("half_width"), nb::arg("minor_axis"), nb::arg("yaw_deviations"),
-             nb::arg("area"))
+        .def(nb::new_(&make_region), nb::arg("anchors"), nb::arg("offsets"), nb::kw_only(),
+             nb::arg("has_heading"), nb::arg("half_width"), nb::arg("minor_axis"),
+             nb::arg("yaw_deviations"), nb::arg("area"))
         .def(
             "sample",
             [](const Region& self, std::size_t count, std::uint32_t seed) {

@@ -42,9 +42,7 @@ def _checkpoint(path, config):
 
 
 @pytest.mark.parametrize("headings", [False, True])
-@pytest.mark.parametrize(
-    ("body", "offsets"), [(COMPACT, False), (COMPACT, True), (PAPER, False)]
-)
+@pytest.mark.parametrize(("body", "offsets"), [(COMPACT, False), (COMPACT, True), (PAPER, False)])
 def test_onnx_equals_pytorch_at_many_sizes(tmp_path, body, offsets, headings):
     query = QueryKind.SQUARE if body is PAPER else QueryKind.WAVEFRONT
     checkpoint = _checkpoint(tmp_path / "a.pt", MPTConfig(body, query, headings, offsets))

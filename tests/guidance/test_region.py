@@ -98,9 +98,7 @@ def test_samples_are_drawn_round_the_selected_anchors_in_the_world_frame(room):
 def test_offsets_turn_with_the_map_and_stay_in_the_patch(room):
     offsets = np.zeros((4, 6, 2))
     offsets[...] = 0.5, -3.0
-    region = make_region(
-        room, np.ones((4, 6), np.float32), SCALE, offsets=offsets, threshold=0.5
-    )
+    region = make_region(room, np.ones((4, 6), np.float32), SCALE, offsets=offsets, threshold=0.5)
     centres = region.sampling().anchors + region.sampling().offsets
     local = room.grid.frame.to_local(region.sampling().anchors) + (0.5, -0.8)
     np.testing.assert_allclose(centres, room.grid.frame.to_world(local), atol=1e-12)
