@@ -1,9 +1,9 @@
 """What helps a network to learn: small networks trained alike but for one thing each.
 
-Each variant is trained for the same number of steps on maps of 24 m x 24 m and measured at the
-threshold 0.5 on unseen maps of that size and on forests of others, among them the sizes of the
-paper's Table III, where its fixed and shifted position encodings differ. Run again, it goes on
-where it stopped.
+Each variant is trained for the same number of steps on maps of one size and measured at the
+threshold 0.5 on unseen maps of that size and on forests of others, which relate to it as those of
+the paper's Table III do to its training maps: there its fixed and shifted position encodings differ.
+Run again, it goes on where it stopped.
 
     python benchmarks/ablation.py --data data --steps 600 --teacher runs/small/checkpoint.pt
 """
@@ -34,9 +34,9 @@ from planformer.training.validation import measurements
 
 SEED = 40_000
 """Of the validation sets; training data draw theirs elsewhere."""
-TRAINED_SIZE = (24.0, 24.0)
-OTHER_SIZES = ((18.0, 12.0), (24.0, 12.0), (28.0, 28.0), (39.0, 39.0))
-"""Width and height in metres of the forests that no variant has been trained on."""
+OTHER_SIZES = ((18, 12), (24, 12), (28, 28), (39, 39))
+"""Width and height of the forests that no variant has been trained on, in 24ths of the training
+maps' sides."""
 
 TINY = preset("tiny")
 BODY = TINY.body
@@ -80,14 +80,17 @@ def variants(steps: int, teacher: Path | None) -> dict[str, Variant]:
 def validation_sets(
     folder: Path, training: PathSource, problems: int, workers: int
 ) -> dict[str, PathSource]:
-    """A source for each size; at the trained one all kinds of maps that were trained on."""
+    """A source for each size, the trained one first, with all kinds of maps trained on."""
     kinds = sorted({recipe.kind for recipe in training.recipes})
+    recipe = training.recipes[0]
+    trained = recipe.width, recipe.height
+    others = [(recipe.width * w / 24, recipe.height * h / 24) for w, h in OTHER_SIZES]
     sets: dict[str, PathSource] = {}
-    for size in (TRAINED_SIZE, *OTHER_SIZES):
+    for size in (trained, *others):
         name = "{:g}x{:g}".format(*size)
         generate_dataset(
             folder / name,
-            kinds=kinds if size == TRAINED_SIZE else ["forest"],
+            kinds=kinds if size == trained else ["forest"],
             maps=-(-problems // 2),
             paths_per_map=2,
             seed=SEED,
@@ -112,7 +115,7 @@ def measured(
         record = json.loads(file.read_text(encoding="utf-8"))
         if record["asked"] == asked:
             return record
-    trained = train(variant.network, config, data, folder, validation=sets["24x24"])
+    trained = train(variant.network, config, data, folder, validation=next(iter(sets.values())))
     if not trained.finished:
         raise typer.Exit(130)
     _, model, stored = load_checkpoint(trained.checkpoint)
@@ -182,7 +185,7 @@ def print_tables(result: dict[str, Any]) -> None:
 
 
 def main(
-    data: Annotated[Path, typer.Option(help="Folder with a data set train/ of 24 m x 24 m.")],
+    data: Annotated[Path, typer.Option(help="Folder with a data set train/, maps of one size.")],
     steps: Annotated[int, typer.Option(help="Steps of each training.")] = 600,
     seeds: Annotated[int, typer.Option(help="Trainings of each variant.")] = 1,
     problems: Annotated[int, typer.Option(help="Problems of each kind and size.")] = 200,
