@@ -1,9 +1,9 @@
 """What helps a network to learn: small networks trained alike but for one thing each.
 
 Each variant is trained for the same number of steps on maps of one size and measured at the
-threshold 0.5 on unseen maps of that size and on forests of others, which relate to it as those of
-the paper's Table III do to its training maps: there its fixed and shifted position encodings differ.
-Run again, it goes on where it stopped.
+threshold 0.5 on unseen maps of that size and on forests of others, whose sides have the ratios of
+the paper's Table III, where its fixed and shifted position encodings differ. Run again, it goes on
+where it stopped.
 
     python benchmarks/ablation.py --data data --steps 600 --teacher runs/small/checkpoint.pt
 """
