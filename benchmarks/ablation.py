@@ -1,7 +1,7 @@
 """What helps a network to learn: small networks trained alike but for one thing each.
 
 Each variant is trained for the same number of steps on maps of one size and measured at the
-threshold 0.5 on unseen maps of that size and on forests of others, whose sides have the ratios of
+threshold 0.5 on unseen maps of that size and of others, whose sides have the ratios of
 the paper's Table III, where its fixed and shifted position encodings differ. Run again, it goes on
 where it stopped.
 
@@ -35,8 +35,8 @@ from planformer.training.validation import measurements
 SEED = 40_000
 """Of the validation sets; training data draw theirs elsewhere."""
 OTHER_SIZES = ((18, 12), (24, 12), (28, 28), (39, 39))
-"""Width and height of the forests that no variant has been trained on, in 24ths of the training
-maps' sides."""
+"""Width and height of the maps that no variant has been trained on, in 24ths of the training maps'
+sides."""
 
 TINY = preset("tiny")
 BODY = TINY.body
@@ -61,6 +61,9 @@ def variants(steps: int, teacher: Path | None) -> dict[str, Variant]:
     known = {
         "baseline": Variant(),
         "markers_query": Variant(replace(TINY, query=QueryKind.MARKERS)),
+        "markers_repeated": Variant(
+            replace(TINY, query=QueryKind.MARKERS, body=replace(BODY, repeats=4))
+        ),
         "no_attention": Variant(replace(TINY, body=replace(BODY, window=1))),
         "one_attention_block": Variant(replace(TINY, body=replace(BODY, groups=1, blocks=4))),
         "width_96": Variant(replace(TINY, body=replace(BODY, width=96))),
@@ -90,7 +93,7 @@ def validation_sets(
         name = "{:g}x{:g}".format(*size)
         generate_dataset(
             folder / name,
-            kinds=kinds if size == trained else ["forest"],
+            kinds=kinds,
             maps=-(-problems // 2),
             paths_per_map=2,
             seed=SEED,
