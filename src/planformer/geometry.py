@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 from dataclasses import dataclass
 from typing import overload
@@ -12,6 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from planformer.errors import InvalidParameter
 
+_PAIRS_AT_ONCE = 2**16
+"""Points times segments that a distance is computed for in one piece of memory."""
 _TWO_PI = 2.0 * math.pi
 
 
@@ -61,7 +62,8 @@ def distance_to_polyline(points: ArrayLike, polyline: ArrayLike) -> NDArray[np.f
     Raises:
         InvalidParameter: The polyline has no vertex.
     """
-    return _length(offset_to_polyline(points, polyline))
+    offset = offset_to_polyline(points, polyline)
+    return np.asarray(np.hypot(offset[:, 0], offset[:, 1]))
 
 
 def offset_to_polyline(points: ArrayLike, polyline: ArrayLike) -> NDArray[np.float64]:
@@ -81,33 +83,31 @@ def offset_to_polyline(points: ArrayLike, polyline: ArrayLike) -> NDArray[np.flo
     vertices = np.asarray(polyline, dtype=np.float64).reshape(-1, 2)
     if len(vertices) == 0:
         raise InvalidParameter("a polyline needs at least one vertex; got none")
-    best = _offset_to_segment(queries, vertices[0], vertices[0])
-    distance = _length(best)
-    # One pass a segment keeps memory at O(M); paths have few segments, maps have many points.
-    for a, b in itertools.pairwise(vertices):
-        offset = _offset_to_segment(queries, a, b)
-        nearer = _length(offset) < distance
-        best[nearer] = offset[nearer]
-        distance[nearer] = _length(offset[nearer])
+    best: NDArray[np.float64] = vertices[0] - queries
+    squared = (best**2).sum(axis=1)
+    # Some segments at a time: paths of a car have many, maps have many points.
+    piece = max(1, _PAIRS_AT_ONCE // max(len(queries), 1))
+    for first in range(0, len(vertices) - 1, piece):
+        x, y = _offsets_to_segments(queries, vertices[first : first + piece + 1])
+        distances = x * x + y * y
+        nearest = np.arange(len(queries)), distances.argmin(axis=1)
+        nearer = distances[nearest] < squared
+        offsets = np.column_stack((x[nearest], y[nearest]))
+        best = np.where(nearer[:, None], offsets, best)
+        squared = np.minimum(squared, distances[nearest])
     return best
 
 
-def _length(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(M,) lengths of (M, 2) vectors."""
-    return np.asarray(np.hypot(vectors[:, 0], vectors[:, 1]))
-
-
-def _offset_to_segment(
-    points: NDArray[np.float64], a: NDArray[np.float64], b: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """(M, 2) vectors from (M, 2) points to the nearest points of the segment from a to b."""
-    direction = b - a
-    squared_length = float(direction @ direction)
-    if squared_length == 0.0:
-        along = np.zeros(len(points))
-    else:
-        along = np.clip((points - a) @ direction / squared_length, 0.0, 1.0)
-    return np.asarray(a + along[:, None] * direction - points)
+def _offsets_to_segments(
+    points: NDArray[np.float64], vertices: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Vectors from (M, 2) points to the nearest points of N - 1 segments: x and y, (M, N - 1)."""
+    dx, dy = np.diff(vertices, axis=0).T
+    squared_length = dx * dx + dy * dy
+    from_x, from_y = (points[:, None, axis] - vertices[:-1, axis] for axis in (0, 1))
+    along = (from_x * dx + from_y * dy) / np.where(squared_length > 0.0, squared_length, 1.0)
+    np.clip(along, 0.0, 1.0, out=along)
+    return along * dx - from_x, along * dy - from_y
 
 
 @dataclass(frozen=True)

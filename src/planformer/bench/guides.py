@@ -57,7 +57,7 @@ class IdealProposer:
         if problem.robot.state_dimension == 3:
             cos, sin = anchor_headings(anchors, path).astype(np.float64)
             headings = np.arctan2(sin, cos)
-            offsets = np.moveaxis(anchor_offsets(anchors, path).astype(np.float64), 0, -1)
+            offsets = anchor_offsets(anchors, path)
         labels = anchor_labels(anchors, path).astype(np.float32)
         return make_region(
             problem,

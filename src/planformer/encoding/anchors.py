@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import math
-from itertools import pairwise
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from planformer.encoding.scale import NetworkScale
 from planformer.errors import InvalidParameter
-from planformer.geometry import distance_to_polyline, offset_to_polyline
+from planformer.geometry import offset_to_polyline
 
 LABEL_DISTANCE = 0.7
 """Anchors no farther than this from the path, in metres, are positive (as in the paper's code)."""
@@ -55,9 +52,7 @@ def anchor_labels(anchors: NDArray[np.float64], path: ArrayLike) -> NDArray[np.b
     Returns:
         (h, w) bool, True within 0.7 m of the path.
     """
-    vertices = np.asarray(path, dtype=np.float64)[:, :2]
-    positive: NDArray[np.bool_] = distance_to_polyline(anchors, vertices) <= LABEL_DISTANCE
-    return positive.reshape(anchors.shape[:2])
+    return np.asarray(np.linalg.norm(anchor_offsets(anchors, path), axis=-1) <= LABEL_DISTANCE)
 
 
 def anchor_headings(anchors: NDArray[np.float64], path: ArrayLike) -> NDArray[np.float32]:
@@ -72,14 +67,14 @@ def anchor_headings(anchors: NDArray[np.float64], path: ArrayLike) -> NDArray[np
         the path turns there, the shorter. Zero where there is no path.
     """
     points, directions = _densified(np.asarray(path, dtype=np.float64)[:, :2])
-    offsets = anchors.reshape(-1, 1, 2) - points
-    near = np.hypot(offsets[..., 0], offsets[..., 1]) <= LABEL_DISTANCE
-    mean = near @ directions / np.maximum(near.sum(axis=1, keepdims=True), 1)
+    dx, dy = (anchors[..., axis].reshape(-1, 1) - points[:, axis] for axis in (0, 1))
+    near = (dx * dx + dy * dy <= LABEL_DISTANCE**2).astype(np.float64)
+    mean = near @ directions / np.maximum(near.sum(axis=1, keepdims=True), 1.0)
     headings: NDArray[np.float32] = mean.T.reshape(2, *anchors.shape[:2]).astype(np.float32)
     return headings
 
 
-def anchor_offsets(anchors: NDArray[np.float64], path: ArrayLike) -> NDArray[np.float32]:
+def anchor_offsets(anchors: NDArray[np.float64], path: ArrayLike) -> NDArray[np.float64]:
     """Way from each anchor to the path.
 
     Args:
@@ -87,29 +82,24 @@ def anchor_offsets(anchors: NDArray[np.float64], path: ArrayLike) -> NDArray[np.
         path: (N, 2) or (N, 3) path in metres; yaw does not count.
 
     Returns:
-        (2, h, w) float32 vectors (x, y) in metres to the nearest point of a path within 0.7 m; zero
-        where there is no path.
+        (h, w, 2) float64 vectors in metres to the nearest point of the path.
     """
     vertices = np.asarray(path, dtype=np.float64)[:, :2]
-    offsets = offset_to_polyline(anchors, vertices)
-    offsets[np.hypot(*offsets.T) > LABEL_DISTANCE] = 0.0
-    vectors: NDArray[np.float32] = offsets.T.reshape(2, *anchors.shape[:2]).astype(np.float32)
-    return vectors
+    return offset_to_polyline(anchors, vertices).reshape(anchors.shape)
 
 
 def _densified(
     path: NDArray[np.float64],
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Evenly spaced points of a path and the unit direction of travel at each."""
-    points, directions = [np.empty((0, 2))], [np.empty((0, 2))]
-    for a, b in pairwise(path):
-        length = math.hypot(*(b - a))
-        if length > 0:
-            count = math.ceil(length / _SPACING)
-            along = (np.arange(count) + 0.5) / count
-            points.append(a + along[:, None] * (b - a))
-            directions.append(np.tile((b - a) / length, (count, 1)))
-    return np.concatenate(points), np.concatenate(directions)
+    steps = np.diff(path, axis=0)
+    lengths = np.hypot(steps[:, 0], steps[:, 1])
+    counts = np.ceil(lengths / _SPACING).astype(np.intp)
+    segment = np.repeat(np.arange(len(steps)), counts)
+    number = np.arange(len(segment)) - np.repeat(np.cumsum(counts) - counts, counts)
+    along = (number + 0.5) / counts[segment]
+    points = path[segment] + along[:, None] * steps[segment]
+    return points, steps[segment] / lengths[segment][:, None]
 
 
 def region_mask(selected: NDArray[np.bool_], scale: NetworkScale) -> NDArray[np.bool_]:

@@ -16,14 +16,12 @@ from planformer.encoding import (
     LABEL_DISTANCE,
     NetworkScale,
     anchor_headings,
-    anchor_labels,
     anchor_offsets,
     anchor_points,
     encode_query,
     network_map,
 )
 from planformer.errors import InvalidDataset
-from planformer.geometry import distance_to_polyline
 from planformer.processes import interrupts_left_to_parent
 from planformer.training.augmentation import Example, augment
 from planformer.training.config import TrainConfig
@@ -39,7 +37,7 @@ class Batch(NamedTuple):
         positive: (B, 1, h, w) float32, 1 at the anchors near the path.
         heading: (B, 2, h, w) float32 direction of travel at those anchors; (B, 0, h, w) without
             headings.
-        offset: (B, 2, h, w) float32 way in metres from those anchors to the path; (B, 0, h, w)
+        offset: (B, 2, h, w) float32 way in metres from each anchor to the path; (B, 0, h, w)
             without offsets.
         inside: (B, 1, h, w) float32, 1 at the anchors of the problem's own map, 0 beyond it.
     """
@@ -79,22 +77,20 @@ def encode_examples(
         query = encode_query(padded, example.start, example.goal, scale)
         inside = np.zeros(anchors.shape[:2], np.float32)
         inside[: pixels.shape[0] // scale.stride, : pixels.shape[1] // scale.stride] = 1.0
-        positive = inside * _labels(anchors, example.path, soft_labels)
+        way = anchor_offsets(anchors, example.path)
+        positive = inside * _labels(way, soft_labels)
         heading = inside * _headings(anchors, example.path, scale)
-        offset = inside * _offsets(anchors, example.path, scale)
+        offset = inside * _offsets(way, scale)
         rows.append((padded[None], query, positive[None], heading, offset, inside[None]))
     return Batch(*(torch.from_numpy(np.stack(column)) for column in zip(*rows, strict=True)))
 
 
-def _labels(
-    anchors: NDArray[np.float64], path: NDArray[np.float64], softness: float
-) -> NDArray[np.float32]:
-    """(h, w) labels in [0, 1]."""
+def _labels(way: NDArray[np.float64], softness: float) -> NDArray[np.float32]:
+    """(h, w) labels in [0, 1] of anchors whose way to the path is known."""
+    beyond = np.linalg.norm(way, axis=-1) - LABEL_DISTANCE
     if softness == 0.0:
-        return anchor_labels(anchors, path).astype(np.float32)
-    beyond = distance_to_polyline(anchors, path[:, :2]) - LABEL_DISTANCE
-    labels: NDArray[np.float32] = np.clip(1.0 - beyond / softness, 0.0, 1.0).astype(np.float32)
-    return labels.reshape(anchors.shape[:2])
+        return np.asarray(beyond <= 0.0, np.float32)
+    return np.asarray(np.clip(1.0 - beyond / softness, 0.0, 1.0), np.float32)
 
 
 def _headings(
@@ -106,13 +102,10 @@ def _headings(
     return np.empty((0, *anchors.shape[:2]), np.float32)
 
 
-def _offsets(
-    anchors: NDArray[np.float64], path: NDArray[np.float64], scale: NetworkScale
-) -> NDArray[np.float32]:
+def _offsets(way: NDArray[np.float64], scale: NetworkScale) -> NDArray[np.float32]:
     """(2, h, w) labels of a network with offsets; (0, h, w) otherwise."""
-    if scale.offsets:
-        return anchor_offsets(anchors, path)
-    return np.empty((0, *anchors.shape[:2]), np.float32)
+    count = 2 if scale.offsets else 0
+    return np.moveaxis(way, -1, 0)[:count].astype(np.float32)
 
 
 class Samples(Dataset[Example]):
