@@ -31,6 +31,14 @@ def test_every_kind_has_a_line_in_every_panel(tmp_path):
     save_picture(figure, tmp_path / "curve.svg")
 
 
+@pytest.mark.parametrize(("loss", "scale"), [(0.3, "log"), (-0.3, "linear")])
+def test_negative_losses_can_be_drawn(tmp_path, loss, scale):
+    rows = [f"{step},1,0.1,0.5,all,1,{loss},1,1,1,1" for step in (1, 2)]
+    figure = plot_training(_log(tmp_path / "log.csv", *rows))
+    assert figure.axes[0].get_yscale() == scale
+    save_picture(figure, tmp_path / "curve.png")
+
+
 def test_one_validation_without_positive_anchors_can_be_drawn(tmp_path):
     log = _log(tmp_path / "log.csv", "1,1,0.1,nan,all,1,nan,0,0,0,0")
     save_picture(plot_training(log), tmp_path / "curve.png")

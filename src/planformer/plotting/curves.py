@@ -51,9 +51,10 @@ def plot_training(log: str | os.PathLike[str]) -> Figure:
         _decorate(axes, label)
     steps, losses = _series(rows, "train_loss")[_ALL]
     panels[0].plot(steps, losses, color=MUTED, ls=":", lw=1.0, label="training")
-    panels[0].set_yscale("log")
-    panels[0].yaxis.set_major_formatter("{x:g}")
-    panels[0].yaxis.set_minor_formatter("{x:g}")
+    if panels[0].dataLim.ymin > 0:  # the likelihood of headings can be negative
+        panels[0].set_yscale("log")
+        panels[0].yaxis.set_major_formatter("{x:g}")
+        panels[0].yaxis.set_minor_formatter("{x:g}")
     lines = panels[0].get_legend_handles_labels()
     figure.legend(*lines, loc="outside upper center", ncols=5, frameon=False, fontsize=9)
     panels[-1].set_xlabel("step", color=INK)
