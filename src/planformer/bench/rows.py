@@ -154,19 +154,24 @@ def _generated_rows() -> tuple[Row, ...]:
         _point_row("indoor-480", "indoor", (480, 480)),
         *(_point_row(f"forest-{name}", "forest", size) for name, size in forests.items()),
         _point_row("maze-780", "maze", (780, 780)),
-        Row(
-            "dubins-forest-480",
-            (Scene("", _generated("forest", (480, 480)), _CAR),),
-            slack=1.05,
-            seconds=2.0,
-            min_distance=4.0,
-            max_distance=15.0,
-        ),
+        _car_row("dubins-forest-480", "forest"),
+        _car_row("dubins-indoor-480", "indoor"),
     )
 
 
 def _point_row(name: str, kind: str, size: tuple[int, int]) -> Row:
     return Row(name, (Scene("", _generated(kind, size), _POINT),))
+
+
+def _car_row(name: str, kind: str) -> Row:
+    return Row(
+        name,
+        (Scene("", _generated(kind, (480, 480)), _CAR),),
+        slack=1.05,
+        seconds=2.0,
+        min_distance=4.0,
+        max_distance=15.0,
+    )
 
 
 def _generated(kind: str, size: tuple[int, int]) -> GeneratedMaps:
