@@ -13,6 +13,7 @@ pytest.importorskip("onnxruntime", reason="the export is checked by ONNX Runtime
 import onnxruntime
 import torch
 
+import planformer as pf
 from planformer.encoding import NetworkScale, QueryKind
 from planformer.errors import InvalidWeights
 from planformer.export import export, onnx
@@ -20,6 +21,7 @@ from planformer.models import (
     CompactBody,
     MPTConfig,
     TransformerBody,
+    UNetBody,
     create_model,
     preset,
     save_checkpoint,
@@ -55,6 +57,21 @@ def test_onnx_equals_pytorch_at_many_sizes(tmp_path, body, offsets, headings):
         "map": "tensor(uint8)",
         "query": "tensor(float)",
     }
+
+
+def test_a_unet_proposes_pixels(tmp_path):
+    config = MPTConfig(UNetBody((4, 8, 8)), QueryKind.SQUARE)
+    exported = export(_checkpoint(tmp_path / "a.pt", config), tmp_path / "a.onnx")
+    assert exported.difference < 1e-4
+    grid = pf.OccupancyGrid(np.zeros((50, 70), bool), 0.05)
+    ends = (0.5, 0.5), (3.0, 2.0)
+    region = pf.propose_region(grid, pf.PointRobot(0.1), *ends, guide=str(exported.weights))
+    assert region.probability.shape == (50, 70)
+    assert region.connected
+    result = pf.plan(
+        grid, pf.PointRobot(0.1), *ends, guide=str(exported.weights), max_vertices=500, seed=1
+    )
+    assert result.solved
 
 
 def test_the_papers_network_is_equally_sure_of_all_headings(tmp_path):

@@ -14,6 +14,7 @@ from planformer.models import (
     CompactBody,
     MPTConfig,
     TransformerBody,
+    UNetBody,
     create_model,
     preset,
 )
@@ -53,13 +54,16 @@ def test_parameter_counts():
     assert 19e6 < _count(create_model("paper")) < 22e6  # "about 20 M"
     assert 0.5e6 < _count(create_model("small")) < 0.7e6
     assert _count(create_model("tiny")) < 0.1e6
+    assert 3e6 < _count(create_model("unet")) < 5e6
 
 
 @pytest.mark.parametrize("name", PRESETS)
-def test_presets_make_a_token_a_metre(name):
+def test_presets_make_the_anchors_of_their_scale(name):
     config = preset(name)
+    side = 480 // config.scale.stride
+    assert side == (480 if name == "unet" else 24)  # a pixel's corner each, or a metre apart
     proposal = _evaluate(create_model(name), _inputs(config, 480, 480))
-    assert proposal.logits.shape == (1, 1, 24, 24)
+    assert proposal.logits.shape == (1, 1, side, side)
     assert (proposal.heading is not None) == config.headings
     assert (proposal.offset is not None) == config.offsets
 
@@ -82,6 +86,26 @@ def test_any_multiple_of_the_stride(make, size, headings):
     assert torch.isfinite(logits).all()
     assert heading is None if not headings else heading.shape == (2, 2, *tokens)
     assert offset is None if not config.offsets else offset.shape == (2, 2, *tokens)
+
+
+@pytest.mark.parametrize("size", [(1, 1), (17, 40), (64, 31)])
+def test_the_unet_takes_any_size(size):
+    config = MPTConfig(UNetBody((4, 8, 8)), QueryKind.SQUARE)
+    logits = _evaluate(create_model(config), _inputs(config, *size, batch=2)).logits
+    assert logits.shape == (2, 1, *size)
+    assert torch.isfinite(logits).all()
+
+
+def test_the_unet_joins_its_resolutions():
+    config = MPTConfig(UNetBody((4, 8, 8)), QueryKind.SQUARE)
+    model = create_model(config).eval()
+    occupancy, query = _inputs(config, 32, 32)
+    query.requires_grad_()
+    model(occupancy, query).logits[0, 0, 16, 16].backward()
+    seen = query.grad[0, 0].nonzero()
+    assert (seen.amax(dim=0) - seen.amin(dim=0) > 20).all()  # far more than convolutions of 3 x 3
+    for parameter in model.parameters():
+        assert parameter.grad is not None
 
 
 def _positions(shifted):

@@ -9,6 +9,9 @@ from planformer.encoding.scale import NetworkScale, QueryKind
 from planformer.encoding.wavefront import wavefront
 from planformer.errors import InvalidParameter
 
+SQUARE_SIDE = 32
+"""Side in pixels of the squares that mark start and goal in the paper's encoding."""
+
 MARKER_SIGMA = 0.5
 """Standard deviation of the soft start and goal markers in metres."""
 
@@ -80,9 +83,9 @@ def _square_query(
 
 
 def _patch(coordinate: float, scale: NetworkScale) -> slice:
-    """The pixels of a patch around a coordinate in metres, along one axis."""
-    first = round(coordinate / scale.resolution) - scale.patch // 2
-    return slice(max(first, 0), max(first + scale.patch, 0))
+    """The pixels of a square around a coordinate in metres, along one axis."""
+    first = round(coordinate / scale.resolution) - SQUARE_SIDE // 2
+    return slice(max(first, 0), max(first + SQUARE_SIDE, 0))
 
 
 def _marker(

@@ -7,7 +7,14 @@ try:
 except ImportError as error:
     raise MissingExtra("torch", "train") from error
 
-from planformer.models.config import PRESETS, CompactBody, MPTConfig, TransformerBody, preset
+from planformer.models.config import (
+    PRESETS,
+    CompactBody,
+    MPTConfig,
+    TransformerBody,
+    UNetBody,
+    preset,
+)
 from planformer.models.create import create_model
 from planformer.models.proposal import Proposal
 from planformer.models.storage import load_checkpoint, save_checkpoint
@@ -18,6 +25,7 @@ __all__ = [
     "MPTConfig",
     "Proposal",
     "TransformerBody",
+    "UNetBody",
     "create_model",
     "load_checkpoint",
     "preset",

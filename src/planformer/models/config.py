@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, fields
-from typing import Any, TypeVar
+from typing import Any, TypeAlias, TypeVar
 
 from planformer.encoding.scale import NetworkScale, QueryKind
 from planformer.errors import InvalidParameter
@@ -89,9 +89,31 @@ class CompactBody:
             )
 
 
-_BODIES: dict[str, type[TransformerBody | CompactBody]] = {
+@dataclass(frozen=True)
+class UNetBody:
+    """The paper's baseline: a U-Net that classifies each pixel.
+
+    Attributes:
+        widths: Channels at each resolution, from the map's own to the coarsest.
+
+    Raises:
+        InvalidParameter: There are fewer than two widths, or one is not positive.
+    """
+
+    widths: tuple[int, ...] = (32, 64, 128, 256, 256)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "widths", tuple(self.widths))
+        if len(self.widths) < 2 or min(self.widths) < 1:
+            raise InvalidParameter(f"widths must be two or more, each >= 1; got {self.widths}")
+
+
+Body: TypeAlias = TransformerBody | CompactBody | UNetBody
+
+_BODIES: dict[str, type[Body]] = {
     "transformer": TransformerBody,
     "compact": CompactBody,
+    "unet": UNetBody,
 }
 
 
@@ -101,33 +123,39 @@ class MPTConfig:
 
     Attributes:
         body: The architecture and its sizes.
-        query: How start and goal are encoded: "square" for a `TransformerBody`, "wavefront" or
-            "markers" for a `CompactBody`.
+        query: How start and goal are encoded: "wavefront" or "markers" for a `CompactBody`, else
+            "square".
         headings: Whether the network takes and predicts headings (SE(2)).
-        offsets: Whether it predicts the way from each anchor to the path; not the paper's body.
+        offsets: Whether it predicts the way from each anchor to the path; only a `CompactBody`.
 
     Raises:
-        InvalidParameter: The query or the offsets do not fit the body.
+        InvalidParameter: The query, the headings or the offsets do not fit the body.
     """
 
-    body: TransformerBody | CompactBody = field(default_factory=CompactBody)
+    body: Body = field(default_factory=CompactBody)
     query: QueryKind = QueryKind.WAVEFRONT
     headings: bool = False
     offsets: bool = False
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "query", self.scale.query)
-        if isinstance(self.body, TransformerBody) != (self.query is QueryKind.SQUARE):
+        if isinstance(self.body, CompactBody) == (self.query is QueryKind.SQUARE):
             raise InvalidParameter(
-                "a transformer body takes the query 'square', a compact one 'wavefront' or "
-                f"'markers'; got {type(self.body).__name__} with {self.query.value!r}"
+                "a compact body takes the query 'wavefront' or 'markers', any other 'square'; got "
+                f"{type(self.body).__name__} with {self.query.value!r}"
             )
-        if self.offsets and isinstance(self.body, TransformerBody):
-            raise InvalidParameter("a transformer body predicts no offsets; use a compact one")
+        if self.offsets and not isinstance(self.body, CompactBody):
+            raise InvalidParameter("only a compact body predicts offsets")
+        if self.headings and isinstance(self.body, UNetBody):
+            raise InvalidParameter("a U-Net predicts no headings")
 
     @property
     def scale(self) -> NetworkScale:
         """The geometry of the network's input and output."""
+        if isinstance(self.body, UNetBody):  # an anchor in each pixel's corner
+            return NetworkScale(
+                stride=1, patch=2, anchor_offset=0, query=self.query, query_stride=1
+            )
         transformer = isinstance(self.body, TransformerBody)
         return NetworkScale(
             anchor_offset=4 if transformer else 10,  # the centre of what a token's patch sees
@@ -185,6 +213,7 @@ PRESETS: dict[str, MPTConfig] = {
     "paper-fixed-encoding": MPTConfig(TransformerBody(shift_positions=False), QueryKind.SQUARE),
     "small": MPTConfig(),
     "tiny": MPTConfig(CompactBody(width=48, stem=24, blocks=2, expansion=2)),
+    "unet": MPTConfig(UNetBody(), QueryKind.SQUARE),
     "dubins": MPTConfig(headings=True, offsets=True),
 }
 

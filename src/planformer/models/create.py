@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from torch import nn
+
 from planformer.models.compact import CompactMPT
-from planformer.models.config import MPTConfig, TransformerBody, preset
+from planformer.models.config import MPTConfig, TransformerBody, UNetBody, preset
 from planformer.models.mpt import MotionPlanningTransformer
+from planformer.models.unet import UNet
 
 
-def create_model(config: str | MPTConfig) -> MotionPlanningTransformer | CompactMPT:
+def create_model(config: str | MPTConfig) -> nn.Module:
     """Create a network with fresh weights.
 
     Args:
@@ -15,7 +18,7 @@ def create_model(config: str | MPTConfig) -> MotionPlanningTransformer | Compact
 
     Returns:
         A module whose forward takes a map (B, 1, H, W) and a query (B, C, H/s, W/s), both float,
-        and returns a `Proposal`; H and W are multiples of 20.
+        and returns a `Proposal`; H and W are multiples of the scale's stride.
 
     Raises:
         InvalidParameter: No preset has this name.
@@ -25,4 +28,6 @@ def create_model(config: str | MPTConfig) -> MotionPlanningTransformer | Compact
     scale = config.scale
     if isinstance(config.body, TransformerBody):
         return MotionPlanningTransformer(config.body, scale.query_channels, config.headings)
+    if isinstance(config.body, UNetBody):
+        return UNet(config.body, scale.query_channels)
     return CompactMPT(config.body, scale)

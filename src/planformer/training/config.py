@@ -9,7 +9,7 @@ from enum import Enum
 from typing import Any
 
 from planformer.errors import InvalidParameter
-from planformer.models import MPTConfig, TransformerBody
+from planformer.models import CompactBody, MPTConfig
 
 
 class Recipe(str, Enum):
@@ -137,6 +137,6 @@ def config_for(network: MPTConfig, **given: Any) -> TrainConfig:
     Raises:
         InvalidParameter: A value is out of range.
     """
-    is_paper = isinstance(network.body, TransformerBody)
+    is_paper = not isinstance(network.body, CompactBody)
     defaults: dict[str, Any] = {"recipe": Recipe.PAPER, "warmup_steps": 3200} if is_paper else {}
     return TrainConfig(**defaults | {k: v for k, v in given.items() if v is not None})
