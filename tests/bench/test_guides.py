@@ -5,7 +5,8 @@ import pytest
 
 import planformer as pf
 from planformer.bench.guides import (
-    IdealProposer,
+    LazyThetaProposer,
+    PathProposer,
     Variant,
     WavefrontProposer,
     fingerprints,
@@ -27,7 +28,7 @@ def maze():
 
 
 def test_the_ideal_region_is_that_of_the_labels(maze, on_path):
-    region = IdealProposer(maze.reference).propose(maze.problem)
+    region = PathProposer(maze.reference).propose(maze.problem)
     near = distance_to_polyline(region.anchors, maze.reference) <= LABEL_DISTANCE
     np.testing.assert_array_equal(region.selected.ravel(), near)
     assert region.connected
@@ -43,17 +44,40 @@ def test_the_ideal_region_fits_maps_of_any_resolution_and_pose(resolution, on_pa
     ends = [grid.nearest_free(grid.frame.to_world(xy), 0.1) for xy in ((1.0, 1.0), (7.0, 5.0))]
     problem = Problem(grid, robot, *ends)
     path = shortest_path(grid, robot.radius, *ends)
-    region = IdealProposer(path).propose(problem)
+    region = PathProposer(path).propose(problem)
     assert region.connected
     assert on_path(region, problem, path)
 
 
 def test_the_ideal_region_of_a_car_has_the_headings_of_the_path(car_row):
     known = make_problem(car_row, 0, seed=0)
-    region = IdealProposer(known.reference).propose(known.problem)
+    region = PathProposer(known.reference).propose(known.problem)
     at = known.reference[len(known.reference) // 2]
     nearest = np.hypot(*np.moveaxis(region.anchors - at[:2], -1, 0)).argmin()
     assert abs(pf.geometry.wrap_angle(region.headings.flat[nearest] - at[2])) < 1.2
+
+
+def test_the_corridor_follows_the_shortest_path_of_a_car_too(maze, car_row):
+    corridor = LazyThetaProposer().propose(maze.problem)
+    ideal = PathProposer(maze.reference).propose(maze.problem)
+    np.testing.assert_array_equal(corridor.mask, ideal.mask)
+    car = make_problem(car_row, 0, seed=0).problem
+    path = shortest_path(car.grid, car.robot.radius, car.start[:2], car.goal[:2])
+    region = LazyThetaProposer().propose(car)
+    sampling = region.sampling()
+    centres = sampling.anchors + sampling.offsets
+    np.testing.assert_allclose(distance_to_polyline(centres, path), 0.0, atol=1e-9)
+    first = np.hypot(*(centres - path[0]).T).argmin()
+    along = path[1] - path[0]
+    assert abs(pf.geometry.wrap_angle(sampling.headings[first] - np.arctan2(*along[::-1]))) < 1.0
+
+
+def test_without_a_way_the_corridor_is_not_connected():
+    occupied = np.zeros((100, 100), bool)
+    occupied[:, 50] = True
+    problem = Problem(pf.OccupancyGrid(occupied), pf.PointRobot(), (1.0, 1.0), (4.0, 1.0))
+    region = LazyThetaProposer().propose(problem)
+    assert not region.connected
 
 
 def test_the_wavefront_connects_a_maze(maze):

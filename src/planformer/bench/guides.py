@@ -1,4 +1,4 @@
-"""What is measured: networks by name, and two guides that no network is needed for."""
+"""What is measured: networks by name, and guides that no network is needed for."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planformer.bench.rows import Row
+from planformer.data.experts import shortest_path
 from planformer.encoding import (
     NetworkScale,
     anchor_headings,
@@ -25,7 +26,11 @@ from planformer.planning import Problem
 IDEAL = "ideal"
 """The region of a network that makes no mistake."""
 WAVEFRONT = "wavefront"
-"""A corridor along the shortest ways of a grid search: what needs no learning."""
+"""A corridor along the shortest ways of the grid search that feeds the networks."""
+LAZY_THETA = "lazy-theta"
+"""A corridor along the shortest any-angle path, with its headings for a car."""
+
+UNLEARNED = (IDEAL, WAVEFRONT, LAZY_THETA)
 
 THRESHOLDS: dict[str, float | None] = {"fixed": PAPER_THRESHOLD, "connecting": None}
 """Rules for the threshold: the paper's value, or the one that connects start and goal."""
@@ -35,11 +40,11 @@ _DETOUR_CHANNEL = 4
 
 
 @dataclass(frozen=True)
-class IdealProposer:
+class PathProposer:
     """Selects the anchors within 0.7 m of a path; for a car with its headings and the way to it.
 
     Attributes:
-        path: (N, 2) or (N, 3) path in the world frame.
+        path: (N, 2) or (N, 3) path in the world frame, N >= 1.
         scale: Scale of the network that it stands for.
     """
 
@@ -99,11 +104,22 @@ class WavefrontProposer:
 
 
 @dataclass(frozen=True)
+class LazyThetaProposer:
+    """Selects the anchors along the shortest any-angle path of a disc: none if there is no path."""
+
+    def propose(self, problem: Problem) -> Region:
+        """The corridor."""
+        ends = problem.start[:2], problem.goal[:2]
+        path = shortest_path(problem.grid, problem.robot.radius, *ends)
+        return PathProposer(np.asarray(ends[:1]) if path is None else path).propose(problem)
+
+
+@dataclass(frozen=True)
 class Variant:
     """A guide with a rule for its threshold.
 
     Attributes:
-        guide: `IDEAL`, `WAVEFRONT`, the name of shipped weights or the path of an .onnx file.
+        guide: One of `UNLEARNED`, the name of shipped weights or the path of an .onnx file.
         threshold: A name in `THRESHOLDS`.
     """
 
@@ -113,24 +129,30 @@ class Variant:
     @property
     def scale(self) -> NetworkScale:
         """Scale at which the guide sees the map."""
-        learned = self.guide not in (IDEAL, WAVEFRONT)
+        learned = self.guide not in UNLEARNED
         return load_network(self.guide).weights.scale if learned else NetworkScale()
 
     def proposer(self, reference: NDArray[np.float64]) -> RegionProposer:
         """The proposer; only the ideal one makes use of the reference path."""
         threshold = THRESHOLDS[self.threshold]
         if self.guide == IDEAL:
-            return IdealProposer(reference)
+            return PathProposer(reference)
         if self.guide == WAVEFRONT:
             return WavefrontProposer(threshold)
+        if self.guide == LAZY_THETA:
+            return LazyThetaProposer()
         return OnnxProposer(load_network(self.guide), threshold)
 
 
 def variants(guides: tuple[str, ...], row: Row) -> tuple[Variant, ...]:
     """All that is measured on a row: guides that need headings have none in the plane."""
-    rules = {guide: ("fixed",) if guide == IDEAL else tuple(THRESHOLDS) for guide in guides}
-    every = [Variant(guide, rule) for guide in guides for rule in rules[guide]]
+    every = [Variant(guide, rule) for guide in guides for rule in _rules(guide)]
     return tuple(v for v in every if not (row.plane and v.scale.headings))
+
+
+def _rules(guide: str) -> tuple[str, ...]:
+    """The thresholds that make a difference to a guide."""
+    return ("fixed",) if guide in (IDEAL, LAZY_THETA) else tuple(THRESHOLDS)
 
 
 def fingerprints(guides: tuple[str, ...]) -> dict[str, str]:
@@ -142,7 +164,7 @@ def fingerprints(guides: tuple[str, ...]) -> dict[str, str]:
     """
     return {
         guide: guide
-        if guide in (IDEAL, WAVEFRONT)
+        if guide in UNLEARNED
         else hashlib.sha256(load_network(guide).weights.model).hexdigest()
         for guide in guides
     }

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from planformer.bench.guides import IDEAL, IdealProposer, Variant, variants
+from planformer.bench.guides import IDEAL, PathProposer, Variant, variants
 from planformer.bench.problems import BenchProblem, make_problem
 from planformer.bench.records import Record
 from planformer.bench.rows import Row
@@ -156,7 +156,7 @@ def _record(
     known: BenchProblem, variant: Variant, proposal: _Proposal, result: PlanResult | None
 ) -> Record:
     problem, region = known.problem, proposal.region
-    ideal = IdealProposer(known.reference, variant.scale).propose(problem)
+    ideal = PathProposer(known.reference, variant.scale).propose(problem)
     target = known.target_length
     inside = _inside_length(problem, region) if known.row.plane else math.nan
     solved = result is not None and result.length <= target

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from planformer.bench.guides import IdealProposer
+from planformer.bench.guides import PathProposer
 from planformer.data.experts import create_expert, expert_names
 from planformer.geometry import polyline_length
 from planformer.planning import Problem, SearchLimits, search
@@ -30,7 +30,7 @@ def reference_path(problem: Problem, seed: int) -> NDArray[np.float64] | None:
     path = create_expert(expert_names(robot)[0], robot).solve(problem, seed)
     if path is None or robot.state_dimension == 2:
         return path
-    region = IdealProposer(path).propose(problem).sampling()
+    region = PathProposer(path).propose(problem).sampling()
     limits = SearchLimits(seconds=_CAR_SECONDS)
     found = search(problem, "RRTstar", region=region, limits=limits, seed=seed)
     return found.path if found.length < polyline_length(path) else path

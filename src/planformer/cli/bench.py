@@ -24,8 +24,8 @@ def accuracy_command(
     guide: Annotated[
         list[str] | None,
         typer.Option(
-            help="Shipped weights, the path of an .onnx file, 'ideal' or 'wavefront'; "
-            "can be repeated. Default: mpt and ideal."
+            help="Shipped weights, the path of an .onnx file, 'ideal', 'wavefront' or "
+            "'lazy-theta'; can be repeated. Default: mpt and ideal."
         ),
     ] = None,
     output: Annotated[Path, typer.Option(metavar="FOLDER", help="Folder of the results.")] = Path(
