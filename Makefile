@@ -15,6 +15,7 @@ MAKEFLAGS += --no-builtin-rules
 BIN := $(abspath $(VENV))/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 CPP := $(shell find cpp -name '*.cpp' -o -name '*.hpp')
+PACKAGES := $(shell find src -name '__init__.py')
 
 # Stamps: files that stand for a step of the set-up that is done.
 VENV_READY := $(VENV)/.stamp-venv
@@ -92,8 +93,8 @@ $(VENV_READY): tools/system_packages.sh tools/python_version.sh tools/build-requ
 	@$(PIP) install $(PIP_ARGS) --requirement tools/build-requirements.txt
 	@touch $@
 
-# Editable: Python edits are live, C++ edits are compiled here.
-$(PACKAGE_READY): $(VENV_READY) pyproject.toml CMakeLists.txt $(CPP)
+# Editable: Python edits are live but for a module that becomes a package; C++ edits are compiled.
+$(PACKAGE_READY): $(VENV_READY) pyproject.toml CMakeLists.txt $(CPP) $(PACKAGES)
 	@echo "Building planformer into $(VENV)"
 	@PATH="$(BIN):$$PATH" $(PIP) install $(PIP_ARGS) --no-build-isolation --editable .
 	@touch $@

@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from planformer.bench.records import Record, from_csv, to_csv
+from planformer.bench.accuracy.record import Record
+from planformer.bench.records import from_csv, to_csv
 from planformer.errors import InvalidResults
 
 BY_TYPE = {
@@ -21,14 +22,14 @@ RECORDS = st.builds(Record, **{f.name: BY_TYPE[f.type] for f in dataclasses.fiel
 
 @given(st.lists(RECORDS, max_size=3))
 def test_records_survive_the_file(records):
-    assert from_csv(to_csv(records)) == records
+    assert from_csv(to_csv(records, Record), Record) == records
 
 
 def test_missing_numbers_survive_too():
     record = Record(
         "r", 0, "", 0, "mpt", "fixed", "", False, "died", False, *[math.nan] * 5, 0, 0, 0
     )
-    (found,) = from_csv(to_csv([record]))
+    (found,) = from_csv(to_csv([record], Record), Record)
     assert math.isnan(found.share)
     assert math.isnan(found.length)
 
@@ -46,4 +47,4 @@ def test_missing_numbers_survive_too():
 def test_damaged_tables_are_refused(damage):
     record = Record("r", 0, "", 0, "mpt", "fixed", "", True, "", True, *[0.25] * 5, 0, 0.25, 0.25)
     with pytest.raises(InvalidResults, match="no table of records"):
-        from_csv(damage(to_csv([record])))
+        from_csv(damage(to_csv([record], Record)), Record)

@@ -1,6 +1,5 @@
 """Benchmarks: measured problem by problem, resumable, with intervals and the environment."""
 
-from planformer.bench.accuracy import run_accuracy
-from planformer.bench.measure import AccuracySettings
+from planformer.bench.accuracy import AccuracySettings, run_accuracy
 
 __all__ = ["AccuracySettings", "run_accuracy"]

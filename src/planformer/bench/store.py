@@ -10,9 +10,9 @@ import json
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Generic, Protocol, TypeVar
 
-from planformer.bench.records import Record, from_csv, to_csv
+from planformer.bench.records import from_csv, to_csv
 from planformer.errors import InvalidResults
 from planformer.files import whole_file
 
@@ -51,22 +51,39 @@ def parts(rows: Iterable[str], problems: int) -> list[Part]:
     ]
 
 
-class ResultFolder:
+class RowRecord(Protocol):
+    """A dataclass that says which problem it is of."""
+
+    @property
+    def row(self) -> str:
+        """Name of the problem's row."""
+
+    @property
+    def problem(self) -> int:
+        """Its number in the row."""
+
+
+Record = TypeVar("Record", bound=RowRecord)
+
+
+class ResultFolder(Generic[Record]):
     """Records on disk that belong to one set of settings.
 
     Args:
         folder: The folder; made where it does not exist.
         settings: All that the records depend on, as JSON-compatible values.
+        kind: The dataclass of the records.
 
     Attributes:
         path: The folder.
+        kind: The dataclass of the records.
 
     Raises:
         InvalidResults: The folder holds results of other settings, or something else.
     """
 
-    def __init__(self, folder: Path, settings: Mapping[str, Any]) -> None:
-        self.path = folder
+    def __init__(self, folder: Path, settings: Mapping[str, Any], kind: type[Record]) -> None:
+        self.path, self.kind = folder, kind
         # As JSON gives it back, to compare it with what was stored.
         self._settings = json.loads(json.dumps({"format": FORMAT, **settings}))
         self._parts = folder / "parts"
@@ -97,7 +114,7 @@ class ResultFolder:
 
     def write(self, part: Part, records: Iterable[Record]) -> None:
         """Store a part; its file appears whole or not at all."""
-        write_text(self._parts / part.file, to_csv(records))
+        write_text(self._parts / part.file, to_csv(records, self.kind))
 
     def read(self, part: Part) -> list[Record]:
         """The records of a part.
@@ -107,7 +124,7 @@ class ResultFolder:
         """
         path = self._parts / part.file
         try:
-            records = from_csv(path.read_text(encoding="utf-8"))
+            records = from_csv(path.read_text(encoding="utf-8"), self.kind)
         except (OSError, UnicodeDecodeError, InvalidResults) as error:
             raise InvalidResults(
                 f"{path} is damaged ({error}); remove it to measure its problems again"

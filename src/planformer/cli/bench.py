@@ -60,7 +60,7 @@ def accuracy_command(
     Example: planformer bench accuracy --problems 5 --rows forest-480,maze-480
     """
     from planformer.bench import AccuracySettings, run_accuracy
-    from planformer.bench.report import markdown, update_page
+    from planformer.bench.accuracy.report import markdown, update_page
     from planformer.bench.rows import chosen_rows
 
     names = None if rows is None else [name.strip() for name in rows.split(",")]
@@ -103,7 +103,7 @@ def _progress_bar() -> Iterator[Callable[[int, int], None]]:
 def _print_table(summary: dict[str, Any], output: Path) -> None:
     from rich.table import Column, Table
 
-    from planformer.bench.report import COLUMNS, SHORT, table_cells
+    from planformer.bench.accuracy.report import COLUMNS, SHORT, table_cells
 
     columns = {name: COLUMNS[name] for name in SHORT}
     names = [Column(name, no_wrap=True) for name in ("maps", "guide", "threshold")]

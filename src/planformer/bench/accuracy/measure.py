@@ -13,9 +13,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from planformer.bench.accuracy.record import Record
 from planformer.bench.guides import IDEAL, PathProposer, Variant, variants
 from planformer.bench.problems import BenchProblem, make_problem
-from planformer.bench.records import Record
 from planformer.bench.rows import Row
 from planformer.data.experts import shortest_path
 from planformer.errors import InvalidParameter, PlanformerError

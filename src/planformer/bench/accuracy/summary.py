@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from planformer.bench.records import Record
+from planformer.bench.accuracy.record import Record
 from planformer.bench.rows import Row
 from planformer.bench.statistics import (
     Interval,

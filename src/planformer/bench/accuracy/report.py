@@ -8,10 +8,11 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from planformer.bench.records import Record, to_csv
+from planformer.bench.accuracy.record import Record
+from planformer.bench.accuracy.summary import summarise
+from planformer.bench.records import to_csv
 from planformer.bench.rows import Row
 from planformer.bench.store import ResultFolder, write_text
-from planformer.bench.summary import summarise
 from planformer.errors import InvalidResults
 from planformer.files import whole_file
 
@@ -36,7 +37,7 @@ SHORT = ("solved %", "connected %", "region / ideal", "total ms", "vertices")
 
 
 def write_report(
-    results: ResultFolder, records: Sequence[Record], rows: Sequence[Row]
+    results: ResultFolder[Record], records: Sequence[Record], rows: Sequence[Row]
 ) -> dict[str, Any]:
     """Write summary.json, table.md and problems.csv.gz into the folder of the results.
 
@@ -52,7 +53,7 @@ def write_report(
     write_text(results.path / TABLE, markdown(summary))
     with whole_file(results.path / PROBLEMS) as file:
         # Without the time in it, so that the same records make the same file.
-        file.write(gzip.compress(to_csv(records).encode(), mtime=0))
+        file.write(gzip.compress(to_csv(records, Record).encode(), mtime=0))
     return summary
 
 

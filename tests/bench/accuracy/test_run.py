@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from planformer.bench import AccuracySettings, run_accuracy
+from planformer.bench.accuracy.record import Record
 from planformer.bench.records import from_csv
 from planformer.errors import InvalidParameter, InvalidResults, UnknownGuide
 
@@ -34,7 +35,9 @@ if __name__ == "__main__":
 def records(folder):
     """All records but for what the clock says."""
     found = [
-        r for part in sorted((folder / "parts").glob("*.csv")) for r in from_csv(part.read_text())
+        record
+        for part in sorted((folder / "parts").glob("*.csv"))
+        for record in from_csv(part.read_text(), Record)
     ]
     return [dataclasses.replace(r, proposal_seconds=0.0, planning_seconds=0.0) for r in found]
 

@@ -6,9 +6,9 @@ import math
 
 import pytest
 
-from planformer.bench.records import Record
+from planformer.bench.accuracy.record import Record
+from planformer.bench.accuracy.summary import summarise
 from planformer.bench.statistics import share_interval
-from planformer.bench.summary import summarise
 
 
 def record(**changes):

@@ -6,8 +6,9 @@ import math
 import numpy as np
 import pytest
 
-from planformer.bench import AccuracySettings, measure
-from planformer.bench.measure import lost_records, measure_problem
+from planformer.bench import AccuracySettings
+from planformer.bench.accuracy import measure
+from planformer.bench.accuracy.measure import lost_records, measure_problem
 from planformer.bench.problems import make_problem
 from planformer.data.experts import shortest_path
 from planformer.errors import InvalidParameter

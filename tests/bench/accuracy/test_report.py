@@ -5,8 +5,9 @@ import gzip
 import pytest
 
 from planformer.bench import AccuracySettings, run_accuracy
+from planformer.bench.accuracy.record import Record
+from planformer.bench.accuracy.report import BEGIN, COLUMNS, END, markdown, update_page
 from planformer.bench.records import from_csv
-from planformer.bench.report import BEGIN, COLUMNS, END, markdown, update_page
 from planformer.errors import InvalidResults
 
 
@@ -29,7 +30,7 @@ def test_the_table_has_every_line_and_what_failed(summary, tmp_path):
 
 def test_all_records_are_kept(summary, tmp_path):
     packed = (tmp_path / "out" / "problems.csv.gz").read_bytes()
-    assert [r.problem for r in from_csv(gzip.decompress(packed).decode())] == [0, 1]
+    assert [r.problem for r in from_csv(gzip.decompress(packed).decode(), Record)] == [0, 1]
 
 
 def test_the_table_takes_its_place_in_a_page(tmp_path):

@@ -7,25 +7,27 @@ path known. See docs/accuracy.md.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from contextlib import closing
+from collections.abc import Sequence
 from dataclasses import asdict
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 import planformer
-from planformer.bench.environment import environment, machine
+from planformer.bench.accuracy.measure import (
+    PLANNER,
+    AccuracySettings,
+    lost_records,
+    measure_problem,
+)
+from planformer.bench.accuracy.record import Record
+from planformer.bench.accuracy.report import write_report
+from planformer.bench.environment import machine
 from planformer.bench.guides import fingerprints, variants
-from planformer.bench.measure import PLANNER, AccuracySettings, lost_records, measure_problem
-from planformer.bench.records import Record
-from planformer.bench.report import write_report
 from planformer.bench.rows import Row
-from planformer.bench.store import Part, ResultFolder, parts
-from planformer.bench.workers import Died, work_through
+from planformer.bench.running import Progress, complete
+from planformer.bench.store import ResultFolder
 from planformer.errors import InvalidParameter
-
-Progress = Callable[[int, int], None]
 
 
 def run_accuracy(
@@ -62,15 +64,17 @@ def run_accuracy(
     """
     settings = settings or AccuracySettings()
     _check(rows, problems, workers, settings)
-    results = ResultFolder(Path(folder), _manifest(settings, workers))
-    wanted = parts([row.name for row in rows], problems)
-    _complete(results, wanted, rows, settings, workers=workers, report=report or _silent)
-    records = [record for part in wanted for record in results.read(part)]
+    results = ResultFolder(Path(folder), _manifest(settings, workers), Record)
+    records = complete(
+        results,
+        rows,
+        problems,
+        partial(measure_problem, settings),
+        partial(lost_records, settings),
+        workers=workers,
+        report=report,
+    )
     return write_report(results, records, rows)
-
-
-def _silent(done: int, total: int) -> None:
-    """The progress report of a caller who wants none."""
 
 
 def _check(rows: Sequence[Row], problems: int, workers: int, settings: AccuracySettings) -> None:
@@ -96,46 +100,3 @@ def _manifest(settings: AccuracySettings, workers: int) -> dict[str, Any]:
         "workers": workers,
         **machine(),
     }
-
-
-def _complete(
-    results: ResultFolder,
-    wanted: Sequence[Part],
-    rows: Sequence[Row],
-    settings: AccuracySettings,
-    *,
-    workers: int,
-    report: Progress,
-) -> None:
-    """Measure the parts that the folder lacks."""
-    missing = [part for part in wanted if not results.has(part)]
-    total = sum(len(part.problems) for part in wanted)
-    done = total - sum(len(part.problems) for part in missing)
-    report(done, total)
-    if not missing:
-        return
-    results.begin(environment())
-    by_name = {row.name: row for row in rows}
-    jobs = [(by_name[part.row], problem) for part in missing for problem in part.problems]
-    measured: dict[tuple[str, int], list[Record]] = {}
-    waiting = {(part.row, problem): part for part in missing for problem in part.problems}
-    work = partial(measure_problem, settings)
-    with closing(work_through(jobs, work, workers)) as finished:
-        for job, outcome in finished:
-            key = (job[0].name, job[1])
-            measured[key] = _records(settings, job, outcome)
-            part = waiting[key]
-            keys = [(part.row, problem) for problem in part.problems]
-            if all(key in measured for key in keys):
-                results.write(part, [record for key in keys for record in measured.pop(key)])
-            done += 1
-            report(done, total)
-
-
-def _records(
-    settings: AccuracySettings, job: tuple[Row, int], outcome: list[Record] | Died
-) -> list[Record]:
-    if isinstance(outcome, Died):
-        cause = f"the process died with exit code {outcome.exit_code}"
-        return lost_records(settings, job, cause)
-    return outcome
