@@ -22,13 +22,15 @@ using PointArray = nb::ndarray<const double, nb::shape<2>, nb::c_contig, nb::dev
 
 Point to_point(const PointArray& xy) { return {xy.data()[0], xy.data()[1]}; }
 
-NumpyArray<double> find_path(const BlockedArray& blocked, double resolution,
+using GridSearch = std::vector<Point>(const FreeSpace&, Point, Point);
+
+NumpyArray<double> find_path(GridSearch* search, const BlockedArray& blocked, double resolution,
                              const PointArray& start, const PointArray& goal) {
     const FreeSpace space = free_space_of(blocked, resolution);
     std::vector<double> values;
     {
         const nb::gil_scoped_release unlocked;
-        for (const Point& point : lazy_theta(space, to_point(start), to_point(goal))) {
+        for (const Point& point : search(space, to_point(start), to_point(goal))) {
             values.insert(values.end(), {point.x, point.y});
         }
     }
@@ -94,10 +96,19 @@ std::optional<float> find_widest_path(const BlockedArray& blocked, const ValueAr
 }  // namespace
 
 void register_grid_search(nb::module_& m) {
-    m.def("lazy_theta", &find_path, nb::arg("blocked"), nb::arg("resolution"), nb::arg("start"),
-          nb::arg("goal"),
-          "Any-angle shortest path between two points, (N, 2) float64 in metres of the local\n"
-          "frame, start and goal included; (0, 2) when no path joins them.");
+    const auto def_search = [&m](const char* name, GridSearch* search, const char* doc) {
+        m.def(
+            name,
+            [search](const BlockedArray& blocked, double resolution, const PointArray& start,
+                     const PointArray& goal) {
+                return find_path(search, blocked, resolution, start, goal);
+            },
+            nb::arg("blocked"), nb::arg("resolution"), nb::arg("start"), nb::arg("goal"), doc);
+    };
+    def_search("lazy_theta", &lazy_theta,
+               "Any-angle shortest path between two points, (N, 2) float64 in metres of the local\n"
+               "frame, start and goal included; (0, 2) when no path joins them.");
+    def_search("astar", &astar, "The same by A* on the 8-connected grid with shortcuts.");
     m.def("hybrid_astar", &find_car_path, nb::arg("blocked"), nb::arg("resolution"),
           nb::arg("turning_radius"), nb::arg("reverse"), nb::arg("start"), nb::arg("goal"),
           nb::arg("max_expansions"),

@@ -67,10 +67,15 @@ bool sees(const FreeSpace& space, Point a, Point b) {
     return space.segment_is_free(a.x, a.y, b.x, b.y);
 }
 
+/// What may be a cell's parent: the neighbour that it was reached from, or whatever that one's
+/// parent is and the cell can see.
+enum class Parents { kNeighbours, kAnyAngle };
+
 class Search {
 public:
-    Search(const FreeSpace& space, Point start, Point goal)
+    Search(const FreeSpace& space, Point start, Point goal, Parents parents)
         : space_(space),
+          parents_(parents),
           start_(start),
           goal_(goal),
           start_cell_(cell_of(start)),
@@ -183,7 +188,7 @@ private:
     void expand(Index cell) {
         const int r = row(cell);
         const int c = col(cell);
-        const Index from = parent(cell);
+        const Index from = parents_ == Parents::kAnyAngle ? parent(cell) : cell;
         const Point origin = point(from);
         const double base = nodes_[from].length;
         for (const Offset step : kNeighbours) {
@@ -213,6 +218,7 @@ private:
     }
 
     const FreeSpace& space_;
+    const Parents parents_;
     const Point start_;
     const Point goal_;
     const Index start_cell_;
@@ -271,23 +277,30 @@ bool pull_taut(const FreeSpace& space, std::vector<Point>& path) {
     return moved;
 }
 
-}  // namespace
-
-std::vector<Point> lazy_theta(const FreeSpace& space, Point start, Point goal) {
+/// A path with shortcuts, empty where there is none.
+std::vector<Point> find_path(const FreeSpace& space, Point start, Point goal, Parents parents) {
     if (!space.is_free(start.x, start.y) || !space.is_free(goal.x, goal.y)) {
         return {};
     }
     if (sees(space, start, goal)) {
         return {start, goal};  // also keeps the two points' cells apart in the search below
     }
-    std::vector<Point> path = Search(space, start, goal).run();
-    if (path.empty()) {
-        return path;
-    }
-    do {
+    const std::vector<Point> path = Search(space, start, goal, parents).run();
+    return path.empty() ? path : shortcut(space, path);
+}
+
+}  // namespace
+
+std::vector<Point> lazy_theta(const FreeSpace& space, Point start, Point goal) {
+    std::vector<Point> path = find_path(space, start, goal, Parents::kAnyAngle);
+    while (pull_taut(space, path)) {
         path = shortcut(space, path);
-    } while (pull_taut(space, path));
+    }
     return path;
+}
+
+std::vector<Point> astar(const FreeSpace& space, Point start, Point goal) {
+    return find_path(space, start, goal, Parents::kNeighbours);
 }
 
 }  // namespace planformer

@@ -106,6 +106,12 @@ def lazy_theta(
     start: NDArray[np.float64],
     goal: NDArray[np.float64],
 ) -> NDArray[np.float64]: ...
+def astar(
+    blocked: NDArray[np.bool_],
+    resolution: float,
+    start: NDArray[np.float64],
+    goal: NDArray[np.float64],
+) -> NDArray[np.float64]: ...
 def hybrid_astar(
     blocked: NDArray[np.bool_],
     resolution: float,

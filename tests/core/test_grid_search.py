@@ -93,11 +93,12 @@ def cell_of(point):
     return math.floor(point[1]), math.floor(point[0])
 
 
+@pytest.mark.parametrize("find", [_core.lazy_theta, _core.astar])
 @settings(max_examples=300)
-@given(problems())
-def test_a_path_is_found_exactly_where_one_exists_and_is_valid(problem):
+@given(problem=problems())
+def test_a_path_is_found_exactly_where_one_exists_and_is_valid(find, problem):
     blocked, start, goal = problem
-    path = _core.lazy_theta(blocked, 1.0, start, goal)
+    path = find(blocked, 1.0, start, goal)
     labels, _ = ndimage.label(~blocked)
     reachable = labels[cell_of(start)] == labels[cell_of(goal)] != 0
     assert path.dtype == np.float64
@@ -108,11 +109,12 @@ def test_a_path_is_found_exactly_where_one_exists_and_is_valid(problem):
         assert not touches(path[:-1], path[1:], blocked).any()
 
 
+@pytest.mark.parametrize("find", [_core.lazy_theta, _core.astar])
 @settings(max_examples=200)
-@given(problems())
-def test_the_length_lies_between_any_angle_optimum_and_steps_over_cells(problem):
+@given(problem=problems())
+def test_the_length_lies_between_any_angle_optimum_and_steps_over_cells(find, problem):
     blocked, start, goal = problem
-    path = _core.lazy_theta(blocked, 1.0, start, goal)
+    path = find(blocked, 1.0, start, goal)
     if len(path) == 0:
         return
     to_centres = sum(
@@ -152,6 +154,21 @@ def test_paths_on_maps_are_valid_and_cannot_be_shortcut(generate):
     path = np.round(path * 8) / 8  # undoes the rounding of cells to metres and back
     assert not touches(path[:-1], path[1:], blocked).any()
     assert touches(path[:-2], path[2:], blocked).all()
+
+
+@pytest.mark.parametrize("generate", [generate_forest, generate_maze])
+def test_astar_is_not_much_longer_than_lazy_theta(generate):
+    ratios = []
+    for seed in range(10):
+        blocked = generate(seed, width=8.0, height=8.0).blocked(0.1)
+        cells = np.random.default_rng(seed).choice(np.argwhere(~blocked), 2)[:, ::-1]
+        ends = (cells + 0.5) * 0.05
+        paths = (find(blocked, 0.05, *ends) for find in (_core.astar, _core.lazy_theta))
+        lengths = [polyline_length(path) for path in paths if len(path)]
+        ratios += [lengths[0] / lengths[1]] if len(lengths) == 2 else []
+    assert len(ratios) >= 5
+    assert 1.0 <= max(ratios) < 1.1
+    assert min(ratios) > 0.999
 
 
 def test_start_equal_to_goal_gives_both():

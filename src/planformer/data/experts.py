@@ -136,9 +136,28 @@ def shortest_path(
     """
     from planformer import _core
 
+    return _grid_path(_core.lazy_theta, grid, robot_radius, start, goal)
+
+
+def astar_path(
+    grid: OccupancyGrid, robot_radius: float, start: ArrayLike, goal: ArrayLike
+) -> NDArray[np.float64] | None:
+    """A path by A* on the 8-connected grid and greedy shortcuts; otherwise as `shortest_path`."""
+    from planformer import _core
+
+    return _grid_path(_core.astar, grid, robot_radius, start, goal)
+
+
+def _grid_path(
+    search: Callable[..., NDArray[np.float64]],
+    grid: OccupancyGrid,
+    robot_radius: float,
+    start: ArrayLike,
+    goal: ArrayLike,
+) -> NDArray[np.float64] | None:
     ends = _ends(start, goal)
     local = grid.frame.to_local(ends)
-    vertices = _core.lazy_theta(grid.blocked(robot_radius), grid.resolution, local[0], local[1])
+    vertices = search(grid.blocked(robot_radius), grid.resolution, local[0], local[1])
     if len(vertices) == 0:
         return None
     path = grid.frame.to_world(vertices)
