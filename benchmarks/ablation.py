@@ -61,18 +61,12 @@ def variants(steps: int, teacher: Path | None) -> dict[str, Variant]:
     known = {
         "baseline": Variant(),
         "markers_query": Variant(replace(TINY, query=QueryKind.MARKERS)),
-        "markers_repeated": Variant(
-            replace(TINY, query=QueryKind.MARKERS, body=replace(BODY, repeats=4))
-        ),
         "no_attention": Variant(replace(TINY, body=replace(BODY, window=1))),
         "one_attention_block": Variant(replace(TINY, body=replace(BODY, groups=1, blocks=4))),
         "width_96": Variant(replace(TINY, body=replace(BODY, width=96))),
         "no_augmentation": Variant(changes={"augment": False}),
         "positive_weight_1": Variant(changes={"positive_weight": 1.0}),
         "positive_weight_2": Variant(changes={"positive_weight": 2.0}),
-        "soft_labels_0.3": Variant(changes={"soft_labels": 0.3}),
-        "soft_labels_0.6": Variant(changes={"soft_labels": 0.6}),
-        "focal_2": Variant(changes={"focal_gamma": 2.0}),
         "imitation": Variant(changes={"teacher": str(teacher)}),
         "paper_shifted_encoding": Variant(MPTConfig(PAPER, QueryKind.SQUARE), slow),
         "paper_fixed_encoding": Variant(MPTConfig(fixed, QueryKind.SQUARE), slow),

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import numpy as np
 import pytest
 
 pytest.importorskip("torch", reason="training needs PyTorch")
@@ -173,9 +172,3 @@ def test_refuses_a_teacher_that_sees_another_input(run):
     run()
     with pytest.raises(WeightsMismatch, match=r"another input: .*query 'wavefront'"):
         run("pupil", network=replace(NETWORK, query="markers"), teacher=str(run.file))
-
-
-def test_soft_labels_are_part_of_the_training(run):
-    hard, soft = (run(str(width), soft_labels=width) for width in (0.0, 0.5))
-    assert not _equal(_weights(hard.checkpoint), _weights(soft.checkpoint))
-    assert np.isfinite(soft.metrics["all"]["loss"])

@@ -53,19 +53,6 @@ def test_inside_is_what_a_network_is_asked_about():
         assert inside.sum() == rows * cols
 
 
-def test_soft_labels_fall_off_beyond_the_hard_ones():
-    example = _example(200, 200)
-    hard, soft = (
-        encode_examples([example], NetworkScale(), soft_labels=width).positive
-        for width in (0.0, 0.6)
-    )
-    assert torch.equal(hard, (soft == 1.0).float())
-    between = (soft > 0) & (soft < 1)
-    assert between.any()
-    wider = encode_examples([example], NetworkScale(), soft_labels=1.2).positive
-    assert (wider[between] > soft[between]).all()
-
-
 class _Wider:
     """The problems of a source on maps that go on to the right, of a kind of their own."""
 

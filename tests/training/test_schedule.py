@@ -40,8 +40,6 @@ def test_cosine_falls_from_its_peak_to_a_fiftieth(limit):
         {"steps": 1, "recipe": "sgd"},
         {"steps": 1, "workers": -1},
         {"steps": 1, "lr": 0.1},
-        {"steps": 1, "soft_labels": -0.1},
-        {"steps": 1, "focal_gamma": float("nan")},
         {"steps": 1, "devices": 0},
         {"steps": 1, "devices": 3, "batch_size": 32},
     ],

@@ -41,7 +41,6 @@ class CompactMPT(nn.Module):
             nn.ReLU(),
             nn.Conv2d(body.stem, body.width, reduction, stride=reduction),
         )
-        self.repeats = body.repeats
         self.groups = nn.Sequential(*(_group(body) for _ in range(body.groups)))
         self.norm = ChannelNorm(body.width)
         self.headings, self.offsets = scale.headings, scale.offsets
@@ -58,9 +57,7 @@ class CompactMPT(nn.Module):
             The proposal, with the anchor of token (r, c) at pixel (20 r + 10, 20 c + 10).
         """
         tokens = self.stem(torch.cat([self.pack(occupancy), query], dim=1))
-        for _ in range(self.repeats):
-            tokens = self.groups(tokens)
-        output = self.head(self.norm(tokens))
+        output = self.head(self.norm(self.groups(tokens)))
         return Proposal(
             output[:, :1],
             heading=output[:, 1:3] if self.headings else None,

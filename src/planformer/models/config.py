@@ -63,7 +63,6 @@ class CompactBody:
         blocks: Convolution blocks in a group.
         heads: Attention heads.
         expansion: Hidden width of an MLP over `width`.
-        repeats: How often tokens pass through the groups, each time with the same weights.
         window: Side in tokens of the windows that attention is confined to. A map of this size is
             one window; beyond it the cost grows with the area, not with its square.
 
@@ -77,11 +76,10 @@ class CompactBody:
     blocks: int = 4
     heads: int = 3
     expansion: int = 3
-    repeats: int = 1
     window: int = 24
 
     def __post_init__(self) -> None:
-        _require_positive(self, "width stem groups blocks heads expansion repeats window")
+        _require_positive(self, "width stem groups blocks heads expansion window")
         if self.width % (4 * self.heads):
             raise InvalidParameter(
                 "width must be a multiple of 4 * heads, for rotary positions along two axes; got "

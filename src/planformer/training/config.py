@@ -42,9 +42,6 @@ class TrainConfig:
         warmup_steps: Steps of rising learning rate; the paper used 3200 with its recipe.
         positive_weight: Weight of positive anchors in the compact recipe; more connects more
             starts with their goals, in larger regions.
-        soft_labels: Metres beyond the labels' distance over which they fall from 1 to 0.
-        focal_gamma: Exponent of the focal loss in the compact recipe, which makes light of the
-            anchors that are right already; 0 = cross-entropy.
         initial: Checkpoint whose weights a new training starts from; None = random weights. A
             training that goes on ignores it.
         teacher: Checkpoint of a network that this one learns to imitate, with half of the loss.
@@ -71,8 +68,6 @@ class TrainConfig:
     weight_decay: float = 0.02
     warmup_steps: int = 50
     positive_weight: float = 8.0
-    soft_labels: float = 0.0
-    focal_gamma: float = 0.0
     initial: str | None = None
     teacher: str | None = None
     augment: bool = True
@@ -97,7 +92,7 @@ class TrainConfig:
         self._require_at_least(
             1, "batch_size steps validate_every validation_problems threads devices"
         )
-        self._require_at_least(0, "warmup_steps seed workers weight_decay soft_labels focal_gamma")
+        self._require_at_least(0, "warmup_steps seed workers weight_decay")
         if self.batch_size % self.devices:
             raise InvalidParameter(
                 f"batch_size must be a multiple of devices; got {self.batch_size} for "

@@ -39,16 +39,10 @@ def proposal_loss(proposal: Proposal, batch: Batch, config: TrainConfig) -> Tens
 
 
 def weighted_cross_entropy(logits: Tensor, batch: Batch, config: TrainConfig) -> Tensor:
-    """The compact recipe's loss: all anchors, the positive ones weighted up.
-
-    With `focal_gamma`, anchors count less the closer they are to their label: the focal loss
-    (Lin et al., ICCV 2017) in its form for soft labels (Li et al., Generalized focal loss, 2020).
-    """
+    """The compact recipe's loss: all anchors, the positive ones weighted up."""
     labels = batch.positive
     weight = torch.tensor(config.positive_weight, device=logits.device)
     loss = F.binary_cross_entropy_with_logits(logits, labels, pos_weight=weight, reduction="none")
-    if config.focal_gamma:
-        loss = loss * (labels - logits.sigmoid()).abs() ** config.focal_gamma
     return _mean_inside(loss, batch.inside)
 
 

@@ -54,9 +54,7 @@ class Batch(NamedTuple):
         return Batch(*(tensor.to(device, non_blocking=True) for tensor in self))
 
 
-def encode_examples(
-    examples: Sequence[Example], scale: NetworkScale, *, soft_labels: float = 0.0
-) -> Batch:
+def encode_examples(examples: Sequence[Example], scale: NetworkScale) -> Batch:
     """Tensors of some problems.
 
     The maps are padded before the rest is made from them, so that a network sees the same as
@@ -65,7 +63,6 @@ def encode_examples(
     Args:
         examples: One problem or more.
         scale: The network's scale.
-        soft_labels: Metres beyond the labels' distance over which they fall from 1 to 0.
     """
     maps = [network_map(e.blocked, e.resolution, scale) for e in examples]
     height, width = (max(sizes) for sizes in zip(*(pixels.shape for pixels in maps), strict=True))
@@ -78,19 +75,16 @@ def encode_examples(
         inside = np.zeros(anchors.shape[:2], np.float32)
         inside[: pixels.shape[0] // scale.stride, : pixels.shape[1] // scale.stride] = 1.0
         way = anchor_offsets(anchors, example.path)
-        positive = inside * _labels(way, soft_labels)
+        positive = inside * _labels(way)
         heading = inside * _headings(anchors, example.path, scale)
         offset = inside * _offsets(way, scale)
         rows.append((padded[None], query, positive[None], heading, offset, inside[None]))
     return Batch(*(torch.from_numpy(np.stack(column)) for column in zip(*rows, strict=True)))
 
 
-def _labels(way: NDArray[np.float64], softness: float) -> NDArray[np.float32]:
-    """(h, w) labels in [0, 1] of anchors whose way to the path is known."""
-    beyond = np.linalg.norm(way, axis=-1) - LABEL_DISTANCE
-    if softness == 0.0:
-        return np.asarray(beyond <= 0.0, np.float32)
-    return np.asarray(np.clip(1.0 - beyond / softness, 0.0, 1.0), np.float32)
+def _labels(way: NDArray[np.float64]) -> NDArray[np.float32]:
+    """(h, w) labels, 0 or 1, of anchors whose way to the path is known."""
+    return np.asarray(np.linalg.norm(way, axis=-1) <= LABEL_DISTANCE, np.float32)
 
 
 def _headings(
@@ -185,7 +179,7 @@ def training_batches(
     loader = DataLoader(
         Samples(source, config.seed if config.augment else None),
         batch_sampler=order,
-        collate_fn=partial(encode_examples, scale=scale, soft_labels=config.soft_labels),
+        collate_fn=partial(encode_examples, scale=scale),
         num_workers=config.workers,
         pin_memory=torch.device(config.device).type == "cuda",
         generator=torch.Generator(),  # the loader must not draw from the training's
