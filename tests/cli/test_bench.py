@@ -50,3 +50,17 @@ def test_accuracy_refuses_results_of_other_settings(cli, tmp_path):
     other = cli("bench", "accuracy", *QUICK, "--output", tmp_path / "out", "--seed", 1)
     assert other.exit_code == 2
     assert "other settings: seed 0 (asked for 1)" in other.output
+
+
+def test_a_table_is_measured_and_printed(cli, tmp_path):
+    command = ["bench", "table2", "--problems", "1", "--systems", "Lazy Theta*,A* + shortcut"]
+    result = cli(*command, "--output", str(tmp_path))
+    assert result.exit_code == 0, result.output
+    assert "Lazy Theta*" in result.output
+    assert (tmp_path / "table2" / "table.md").read_text().startswith("### maze-480, 1 problems")
+
+
+def test_an_unknown_system_is_an_error_with_the_choices(cli, tmp_path):
+    result = cli("bench", "table1", "--problems", "1", "--systems", "RRT", "--output", tmp_path)
+    assert result.exit_code == 2
+    assert "MPT-RRT*-EE" in " ".join(result.output.split())

@@ -8,7 +8,8 @@ seed of the data set (`planformer.data.generate`). Problem maps here draw from `
 from __future__ import annotations
 
 import zlib
-from dataclasses import dataclass
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import islice
 
@@ -25,6 +26,10 @@ from planformer.planning import Problem
 PROBLEMS_PER_MAP = 4
 EVALUATION_ENTROPY = 2**32
 """Added to the seed: entropy that no data set of a smaller seed draws its maps from."""
+ROUNDS = 3
+"""How often a problem is measured at most, because a run found a better reference."""
+_SHORTER = 1e-3
+"""A reference gives way to a path that is shorter by this share."""
 _ATTEMPTS = 20
 
 
@@ -59,6 +64,20 @@ class BenchProblem:
     def target_length(self) -> float:
         """Length in metres up to which a path solves the problem."""
         return self.row.slack * self.reference_length
+
+    def improved(self, paths: Iterable[NDArray[np.float64]]) -> BenchProblem | None:
+        """The problem with the shortest of some paths as its reference.
+
+        Args:
+            paths: Valid paths, any number.
+
+        Returns:
+            None where no path is shorter than the reference by a thousandth.
+        """
+        best = min(paths, key=polyline_length, default=None)
+        if best is None or polyline_length(best) >= (1.0 - _SHORTER) * self.reference_length:
+            return None
+        return replace(self, reference=best)
 
 
 def make_problem(row: Row, index: int, seed: int) -> BenchProblem:

@@ -9,10 +9,13 @@ from planformer.bench.environment import environment
 from planformer.bench.rows import Row
 from planformer.bench.store import Record, ResultFolder, parts
 from planformer.bench.workers import Died, work_through
+from planformer.errors import PlanformerError
 
 Job = tuple[Row, int]
 """A row and the number of a problem in it."""
 Progress = Callable[[int, int], None]
+FAILURES = (PlanformerError, RuntimeError, ValueError, ArithmeticError, MemoryError)
+"""What a guide or a planner may raise; a TypeError, say, is a mistake in the program instead."""
 
 
 def complete(

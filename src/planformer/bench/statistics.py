@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
@@ -88,3 +88,38 @@ def ratio_of_medians(
 def percentile_90(values: NDArray[np.float64], axis: int) -> Any:
     """90th percentile that is one of the values, so that infinite ones do no harm."""
     return np.quantile(values, 0.9, axis=axis, method="inverted_cdf")
+
+
+def percent_of(holds: Sequence[bool] | NDArray[np.bool_]) -> dict[str, float | None]:
+    """A share in percent with its interval, as JSON has it.
+
+    Args:
+        holds: For each trial whether it counts; at least one.
+    """
+    interval = share_interval(int(np.sum(holds)), len(holds))
+    percent = {name: 100.0 * value for name, value in asdict(interval).items()}
+    return _json(Interval(**percent))
+
+
+def median_of(values: NDArray[np.float64]) -> dict[str, float | None]:
+    """The median with its interval, as JSON has it."""
+    return interval_of(np.median, values)
+
+
+def interval_of(
+    statistic: Callable[..., Any], *columns: NDArray[np.float64]
+) -> dict[str, float | None]:
+    """A statistic with its bootstrap interval, as JSON has it: what is not finite is null.
+
+    Args:
+        statistic: As in `bootstrap_interval`.
+        columns: As there, but may be empty: then all is null.
+    """
+    if len(columns[0]) == 0:
+        return _json(Interval(math.nan, math.nan, math.nan))
+    return _json(bootstrap_interval(statistic, *columns))
+
+
+def _json(interval: Interval) -> dict[str, float | None]:
+    values = asdict(interval).items()
+    return {name: value if math.isfinite(value) else None for name, value in values}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, Any
@@ -112,4 +112,104 @@ def _print_table(summary: dict[str, Any], output: Path) -> None:
     for line in summary["lines"]:
         table.add_row(*table_cells(line, columns, intervals=False))
     stdout.print(table)
+    stdout.print(f"{output}: summary.json, table.md, problems.csv.gz", soft_wrap=True)
+
+
+_TABLES = {
+    "table1": "Planners of a point robot in forests of 480 x 480 pixels: the paper's table I.",
+    "table2": "Planners of a point robot in mazes of 480 x 480 pixels: the paper's table II.",
+    "table3": "Planners of a point robot in forests of four sizes: the paper's table III.",
+    "table4": "Planners of a Dubins car in forests of 480 x 480 pixels: the paper's table IV.",
+    "table5": "Planners of a point robot on real maps.",
+}
+
+
+def _table_command(tables: Sequence[str]) -> Callable[..., None]:
+    """The command that measures some tables, one after the other."""
+
+    def command(
+        problems: Annotated[int, typer.Option(help="Problems in each row.")],
+        output: Annotated[
+            Path, typer.Option(metavar="FOLDER", help="Each table has a folder in it.")
+        ] = Path("bench_tables"),
+        systems: Annotated[
+            str | None, typer.Option(help="Systems, separated by commas. Default: all.")
+        ] = None,
+        slack: Annotated[
+            float, typer.Option(help="A path this many times as long as the reference solves.")
+        ] = 1.01,
+        limit: Annotated[float, typer.Option(help="Seconds of a search.")] = 10.0,
+        reference: Annotated[
+            str, typer.Option(help="'best', the best path known, or 'rrtstar' as in the paper.")
+        ] = "best",
+        reference_seconds: Annotated[
+            float, typer.Option(help="Seconds for RRT* where its path is the reference.")
+        ] = 90.0,
+        real_maps: Annotated[
+            Path | None, typer.Option(metavar="FOLDER", help="The real maps of table5.")
+        ] = None,
+        workers: Annotated[
+            int,
+            typer.Option(help="Number of processes; several make times those of a busy machine."),
+        ] = 1,
+        seed: Annotated[int, typer.Option(help="Seed of the problems.")] = 0,
+        as_json: Annotated[
+            bool, typer.Option("--json", help="Print the summaries as JSON and nothing else.")
+        ] = False,
+    ) -> None:
+        from planformer.bench.tables import TableSettings, run_table
+
+        settings = TableSettings(
+            slack=slack,
+            seconds=limit,
+            reference=reference,
+            reference_seconds=reference_seconds,
+            seed=seed,
+            systems=None if systems is None else tuple(name.strip() for name in systems.split(",")),
+        )
+        summaries = {}
+        for table in tables:
+            if table == "table5" and real_maps is None and len(tables) > 1:
+                stderr.print("table5 is left out: it needs --real-maps", soft_wrap=True)
+                continue
+            with _progress_bar() as show:
+                summaries[table] = run_table(
+                    output / table,
+                    table,
+                    problems=problems,
+                    settings=settings,
+                    real_maps=real_maps if table == "table5" else None,
+                    workers=workers,
+                    report=show,
+                )
+            if not as_json:
+                _print_systems(summaries[table], output / table)
+        if as_json:
+            print_json(summaries)
+
+    return command
+
+
+for _name, _help in _TABLES.items():
+    bench_app.command(_name, help=f"{_help} Ctrl-C keeps what is measured.")(
+        _table_command([_name])
+    )
+bench_app.command("all", help="All tables. Ctrl-C keeps what is measured.")(
+    _table_command(list(_TABLES))
+)
+
+
+def _print_systems(summary: dict[str, Any], output: Path) -> None:
+    from rich.table import Column, Table
+
+    from planformer.bench.tables.report import COLUMNS, SHORT, table_cells
+
+    columns = {name: COLUMNS[name] for name in SHORT}
+    for row in dict.fromkeys(line["row"] for line in summary["lines"]):
+        numbers = [Column(name, justify="right") for name in columns]
+        table = Table(Column(row, no_wrap=True), *numbers, box=None, pad_edge=False)
+        for line in summary["lines"]:
+            if line["row"] == row:
+                table.add_row(*table_cells(line, columns, intervals=False))
+        stdout.print(table)
     stdout.print(f"{output}: summary.json, table.md, problems.csv.gz", soft_wrap=True)

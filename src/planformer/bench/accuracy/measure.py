@@ -15,21 +15,17 @@ import numpy as np
 
 from planformer.bench.accuracy.record import Record
 from planformer.bench.guides import IDEAL, PathProposer, Variant, variants
-from planformer.bench.problems import BenchProblem, make_problem
+from planformer.bench.problems import ROUNDS, BenchProblem, make_problem
 from planformer.bench.rows import Row
+from planformer.bench.running import FAILURES, Job
 from planformer.data.experts import shortest_path
-from planformer.errors import InvalidParameter, PlanformerError
+from planformer.errors import InvalidParameter
 from planformer.geometry import polyline_length
 from planformer.guidance import Region
 from planformer.maps import OccupancyGrid
 from planformer.planning import PlanResult, Problem, SamplingRegion, SearchLimits, search
 
 PLANNER = "RRTstar"
-_ROUNDS = 3
-_FAILURES = (PlanformerError, RuntimeError, ValueError, ArithmeticError, MemoryError)
-"""What a guide or a planner may raise; a TypeError, say, is a mistake in the program instead."""
-_SHORTER = 1e-3
-"""A reference gives way to a path that is shorter by this share."""
 
 
 @dataclass(frozen=True)
@@ -64,7 +60,7 @@ class AccuracySettings:
         return SearchLimits(seconds, target_length, self.max_vertices)
 
 
-def measure_problem(settings: AccuracySettings, job: tuple[Row, int]) -> list[Record]:
+def measure_problem(settings: AccuracySettings, job: Job) -> list[Record]:
     """Measure all variants on a problem, one after the other.
 
     Args:
@@ -79,17 +75,18 @@ def measure_problem(settings: AccuracySettings, job: tuple[Row, int]) -> list[Re
     """
     row, index = job
     known = make_problem(row, index, settings.seed)
-    for _ in range(_ROUNDS):
+    for _ in range(ROUNDS):
         searches = _Searches(settings.limits(row, known.target_length), known)
         runs = [_run(known, variant, searches) for variant in variants(settings.guides, row)]
-        best = min((run.result for run in runs if run.result), key=_length, default=None)
-        if best is None or best.length >= known.reference_length * (1.0 - _SHORTER):
+        found = (run.result.path for run in runs if run.result and run.result.solved)
+        better = known.improved(found)
+        if better is None:
             break
-        known = dataclasses.replace(known, reference=best.path)
+        known = better
     return [run.record for run in runs]
 
 
-def lost_records(settings: AccuracySettings, job: tuple[Row, int], cause: str) -> list[Record]:
+def lost_records(settings: AccuracySettings, job: Job, cause: str) -> list[Record]:
     """Records of a problem on which every variant counts as failed."""
     row, index = job
     return [_lost(row, index, variant, cause) for variant in variants(settings.guides, row)]
@@ -106,10 +103,6 @@ class _Proposal:
     region: Region
     sampling: SamplingRegion | None
     seconds: float
-
-
-def _length(result: PlanResult) -> float:
-    return result.length
 
 
 class _Searches:
@@ -139,7 +132,7 @@ def _run(known: BenchProblem, variant: Variant, searches: _Searches) -> _Run:
         proposal = _propose(variant, known)
         result = None if proposal.sampling is None else searches.search(proposal.sampling)
         return _Run(_record(known, variant, proposal, result), result)
-    except _FAILURES as error:
+    except FAILURES as error:
         cause = " ".join(f"{type(error).__name__}: {error}".split())
         return _Run(_lost(known.row, known.index, variant, cause))
 

@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
-import gzip
-import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from planformer.bench.accuracy.record import Record
 from planformer.bench.accuracy.summary import summarise
-from planformer.bench.records import to_csv
+from planformer.bench.reporting import (
+    causes_line,
+    interval_cell,
+    markdown_table,
+    session_line,
+    write_files,
+)
 from planformer.bench.rows import Row
 from planformer.bench.store import ResultFolder, write_text
 from planformer.errors import InvalidResults
-from planformer.files import whole_file
 
-SUMMARY, TABLE, PROBLEMS = "summary.json", "table.md", "problems.csv.gz"
 BEGIN, END = "<!-- begin accuracy table -->", "<!-- end accuracy table -->"
 
 COLUMNS = {
@@ -49,11 +51,7 @@ def write_report(
         "sessions": results.sessions,
         "lines": summarise(records, rows),
     }
-    write_text(results.path / SUMMARY, json.dumps(summary, indent=2, allow_nan=False) + "\n")
-    write_text(results.path / TABLE, markdown(summary))
-    with whole_file(results.path / PROBLEMS) as file:
-        # Without the time in it, so that the same records make the same file.
-        file.write(gzip.compress(to_csv(records, Record).encode(), mtime=0))
+    write_files(results, records, summary, markdown(summary))
     return summary
 
 
@@ -61,11 +59,14 @@ def markdown(summary: Mapping[str, Any]) -> str:
     """The lines of a summary as a Markdown table, with how they were measured and what failed."""
     lines = summary["lines"]
     rows = (table_cells(line, COLUMNS, intervals=True) for line in lines)
-    header = ["maps", "guide", "threshold", "problems", *COLUMNS]
-    table = [header, ["---"] * len(header), *rows]
-    text = [f"| {' | '.join(cells)} |" for cells in table]
-    text += ["", *(f"- {_machine(session)}" for session in summary["sessions"])]
-    failures = [f"- {_name(line)}: {_causes(line)}" for line in lines if line["causes"]]
+    text = [markdown_table(["maps", "guide", "threshold", "problems", *COLUMNS], rows)]
+    text += ["", *(f"- {session_line(session)}" for session in summary["sessions"])]
+    failures = [
+        f"- {line['row']}, {line['guide']}, {line['threshold']} threshold: "
+        + causes_line(line["causes"])
+        for line in lines
+        if line["causes"]
+    ]
     return "\n".join([*text, *(["", "Not solved:", ""] if failures else []), *failures]) + "\n"
 
 
@@ -73,7 +74,10 @@ def table_cells(
     line: Mapping[str, Any], columns: Mapping[str, tuple[str, str]], *, intervals: bool
 ) -> list[str]:
     """The cells of a line: names, number of problems and some of `COLUMNS`."""
-    values = [_cell(line[measure], style, intervals) for measure, style in columns.values()]
+    values = [
+        interval_cell(line[measure], style, with_ends=intervals)
+        for measure, style in columns.values()
+    ]
     return [line["row"], line["guide"], line["threshold"], f"{line['problems']:,}", *values]
 
 
@@ -89,27 +93,3 @@ def update_page(page: Path, table: str) -> None:
     except (OSError, ValueError) as error:
         raise InvalidResults(f"{page} must hold {BEGIN} and {END} once, in this order") from error
     write_text(page, f"{before}{BEGIN}\n\n{table}\n{END}{after}")
-
-
-def _cell(interval: Mapping[str, float | None], style: str, with_ends: bool) -> str:
-    value, low, high = (
-        "∞" if interval[end] is None else format(interval[end], style)
-        for end in ("value", "low", "high")
-    )
-    return value if not with_ends or low == high == value else f"{value} [{low}, {high}]"
-
-
-def _name(line: Mapping[str, Any]) -> str:
-    return f"{line['row']}, {line['guide']}, {line['threshold']} threshold"
-
-
-def _causes(line: Mapping[str, Any]) -> str:
-    return ", ".join(f"{cause} {count}" for cause, count in line["causes"].items())
-
-
-def _machine(session: Mapping[str, Any]) -> str:
-    return (
-        f"`{session['command']}`, {session['date']}, commit {session['commit']}, planformer "
-        f"{session['planformer']}, OMPL {session['ompl']}, {session['cores']} cores of "
-        f"{session['cpu']}"
-    )

@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Callable, Sequence
-from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -18,11 +17,11 @@ from numpy.typing import NDArray
 from planformer.bench.accuracy.record import Record
 from planformer.bench.rows import Row
 from planformer.bench.statistics import (
-    Interval,
-    bootstrap_interval,
+    interval_of,
+    median_of,
+    percent_of,
     percentile_90,
     ratio_of_medians,
-    share_interval,
 )
 
 _PERCENT, _MILLI = 100.0, 1e3
@@ -67,38 +66,17 @@ def _measures(records: Sequence[Record]) -> dict[str, Any]:
     vertices = column(lambda r: r.vertices if r.solved else math.inf)
     return {
         "problems": len(records),
-        "solved_percent": _share(records, lambda r: r.solved),
-        "connected_percent": _share(records, lambda r: r.connected),
-        "region_percent": _median(_PERCENT * share),
-        "ideal_region_percent": _median(_PERCENT * ideal),
-        "region_over_ideal": _interval(ratio_of_medians, share, ideal),
-        "length_ratio": _median(length),
-        "length_ratio_p90": _interval(percentile_90, length),
-        "proposal_ms": _median(_MILLI * proposal[np.isfinite(proposal)]),
-        "total_ms": _median(_MILLI * seconds),
-        "total_ms_p90": _interval(percentile_90, _MILLI * seconds),
-        "vertices": _median(vertices),
+        "solved_percent": percent_of([r.solved for r in records]),
+        "connected_percent": percent_of([r.connected for r in records]),
+        "region_percent": median_of(_PERCENT * share),
+        "ideal_region_percent": median_of(_PERCENT * ideal),
+        "region_over_ideal": interval_of(ratio_of_medians, share, ideal),
+        "length_ratio": median_of(length),
+        "length_ratio_p90": interval_of(percentile_90, length),
+        "proposal_ms": median_of(_MILLI * proposal[np.isfinite(proposal)]),
+        "total_ms": median_of(_MILLI * seconds),
+        "total_ms_p90": interval_of(percentile_90, _MILLI * seconds),
+        "vertices": median_of(vertices),
         "causes": dict(Counter(record.cause for record in records if record.cause)),
         "replaced": sum(record.replaced > 0 for record in records),
     }
-
-
-def _share(records: Sequence[Record], holds: Callable[[Record], bool]) -> dict[str, float | None]:
-    interval = share_interval(sum(map(holds, records)), len(records))
-    percent = {name: _PERCENT * value for name, value in asdict(interval).items()}
-    return _json(Interval(**percent))
-
-
-def _median(values: NDArray[np.float64]) -> dict[str, float | None]:
-    return _interval(np.median, values)
-
-
-def _interval(statistic: Callable[..., Any], *columns: NDArray[np.float64]) -> dict[str, Any]:
-    if len(columns[0]) == 0:
-        return _json(Interval(math.nan, math.nan, math.nan))
-    return _json(bootstrap_interval(statistic, *columns))
-
-
-def _json(interval: Interval) -> dict[str, float | None]:
-    values = asdict(interval).items()
-    return {name: value if math.isfinite(value) else None for name, value in values}

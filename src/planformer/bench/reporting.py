@@ -1,0 +1,63 @@
+"""The files of a finished benchmark, and how its numbers are written in Markdown."""
+
+from __future__ import annotations
+
+import gzip
+import json
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+from planformer.bench.records import to_csv
+from planformer.bench.store import Record, ResultFolder, write_text
+from planformer.files import whole_file
+
+SUMMARY, TABLE, PROBLEMS = "summary.json", "table.md", "problems.csv.gz"
+
+
+def write_files(
+    results: ResultFolder[Record],
+    records: Sequence[Record],
+    summary: Mapping[str, Any],
+    table: str,
+) -> None:
+    """Write summary.json, table.md and problems.csv.gz into the folder of the results."""
+    write_text(results.path / SUMMARY, json.dumps(summary, indent=2, allow_nan=False) + "\n")
+    write_text(results.path / TABLE, table)
+    with whole_file(results.path / PROBLEMS) as file:
+        # Without the time in it, so that the same records make the same file.
+        file.write(gzip.compress(to_csv(records, results.kind).encode(), mtime=0))
+
+
+def markdown_table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """A table in Markdown."""
+    lines = [header, ["---"] * len(header), *rows]
+    return "\n".join(f"| {' | '.join(cells)} |" for cells in lines)
+
+
+def interval_cell(interval: Mapping[str, float | None], style: str, *, with_ends: bool) -> str:
+    """A value, and where they differ from it the ends of its interval.
+
+    Args:
+        interval: As `planformer.bench.statistics.interval_of` gives it.
+        style: Format of the numbers; null is written as infinite.
+        with_ends: Whether to write the ends.
+    """
+    value, low, high = (
+        "∞" if interval[end] is None else format(interval[end], style)
+        for end in ("value", "low", "high")
+    )
+    return value if not with_ends or low == high == value else f"{value} [{low}, {high}]"
+
+
+def causes_line(causes: Mapping[str, int]) -> str:
+    """Why problems were not solved, and how often."""
+    return ", ".join(f"{cause} {count}" for cause, count in causes.items())
+
+
+def session_line(session: Mapping[str, Any]) -> str:
+    """How something was measured, in a line."""
+    return (
+        f"`{session['command']}`, {session['date']}, commit {session['commit']}, planformer "
+        f"{session['planformer']}, OMPL {session['ompl']}, {session['cores']} cores of "
+        f"{session['cpu']}"
+    )

@@ -1,0 +1,162 @@
+"""A table as the paper has it, with the paper's own numbers beside."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from planformer.bench.reporting import (
+    causes_line,
+    interval_cell,
+    markdown_table,
+    session_line,
+    write_files,
+)
+from planformer.bench.rows import Row
+from planformer.bench.store import ResultFolder
+from planformer.bench.tables.record import NO_WEIGHTS, Trial
+from planformer.bench.tables.summary import summarise
+
+COLUMNS = {
+    "accuracy %": ("accuracy_percent", ".1f"),
+    "time s": ("seconds", ".4f"),
+    "time s, 90 %": ("seconds_p90", ".4f"),
+    "vertices": ("vertices", ",.0f"),
+    "vertices, 90 %": ("vertices_p90", ",.0f"),
+    "length": ("length_ratio", ".3f"),
+    "proposal s": ("proposal_seconds", ".4f"),
+}
+"""Columns of the table: the measure and its format."""
+SHORT = ("accuracy %", "time s", "vertices", "length")
+"""Those that fit on a terminal."""
+
+PAPER: Mapping[str, Mapping[str, tuple[float, float, int]]] = {
+    "forest-480": {
+        "RRT*": (100.0, 5.448, 3228),
+        "IRRT*": (100.0, 0.425, 267),
+        "BIT*": (100.0, 0.477, 819),
+        "UNet-RRT*": (30.27, 0.167, 168),
+        "UNet-RRT*-EE": (100.0, 2.58, 1913),
+        "MPT-RRT*": (99.40, 0.194, 233),
+        "MPT-IRRT*": (99.40, 0.087, 136),
+        "MPT-RRT*-EE": (100.0, 0.211, 247),
+    },
+    "maze-480": {
+        "RRT*": (100.0, 5.364, 2042),
+        "IRRT*": (100.0, 3.139, 1394),
+        "BIT*": (100.0, 2.870, 2002),
+        "UNet-RRT*": (21.4, 0.346, 277),
+        "UNet-RRT*-EE": (100.0, 4.133, 2139),
+        "MPT-RRT*": (99.16, 0.870, 626),
+        "MPT-IRRT*": (99.16, 0.784, 566),
+        "MPT-RRT*-EE": (100.0, 0.869, 585),
+    },
+    "forest-360x240": {
+        "RRT*": (100.0, 5.926, 3660),
+        "IRRT*": (100.0, 0.286, 257),
+        "BIT*": (100.0, 0.625, 1069),
+        "MPT-RRT* (F.E.)": (97.4, 0.265, 377),
+        "MPT-IRRT* (F.E.)": (97.4, 0.062, 118),
+        "MPT-RRT*": (99.20, 0.248, 354),
+        "MPT-IRRT*": (99.20, 0.054, 106),
+        "MPT-RRT*-EE": (100.0, 0.297, 382),
+    },
+    "forest-480x240": {
+        "RRT*": (100.0, 6.308, 3480),
+        "IRRT*": (100.0, 0.394, 291),
+        "BIT*": (100.0, 0.590, 1061),
+        "MPT-RRT* (F.E.)": (96.3, 0.268, 348),
+        "MPT-IRRT* (F.E.)": (96.3, 0.072, 130),
+        "MPT-RRT*": (98.5, 0.265, 319),
+        "MPT-IRRT*": (98.5, 0.073, 131),
+        "MPT-RRT*-EE": (100.0, 0.302, 362),
+    },
+    "forest-560": {
+        "RRT*": (100.0, 6.725, 3854),
+        "IRRT*": (100.0, 0.283, 203),
+        "BIT*": (100.0, 0.397, 810),
+        "MPT-RRT* (F.E.)": (75.6, 0.253, 262),
+        "MPT-IRRT* (F.E.)": (75.6, 0.082, 101),
+        "MPT-RRT*": (99.7, 0.181, 218),
+        "MPT-IRRT*": (99.7, 0.083, 112),
+        "MPT-RRT*-EE": (100.0, 0.217, 237),
+    },
+    "forest-780": {
+        "RRT*": (100.0, 8.095, 4292),
+        "IRRT*": (100.0, 0.476, 255),
+        "BIT*": (100.0, 0.542, 974),
+        "MPT-RRT* (F.E.)": (37.9, 0.274, 284),
+        "MPT-IRRT* (F.E.)": (37.9, 0.095, 142),
+        "MPT-RRT*": (99.5, 0.297, 241),
+        "MPT-IRRT*": (99.5, 0.152, 161),
+        "MPT-RRT*-EE": (100.0, 0.285, 238),
+    },
+    "dubins-forest-480": {
+        "RRT*": (100.0, 0.357, 95),
+        "SST": (100.0, 4.880, 710),
+        "MPT-RRT*": (95.15, 0.176, 59),
+        "MPT-RRT*-EE": (100.0, 0.197, 60),
+    },
+}
+"""Accuracy in percent, median time in seconds and median vertices in the paper's tables I to IV."""
+
+
+def write_report(
+    results: ResultFolder[Trial], trials: Sequence[Trial], rows: Sequence[Row], limit: float
+) -> dict[str, Any]:
+    """Write summary.json, table.md and problems.csv.gz into the folder of the results.
+
+    Returns:
+        The content of summary.json.
+    """
+    summary = {
+        "settings": results.settings,
+        "sessions": results.sessions,
+        "lines": summarise(trials, rows, limit),
+    }
+    write_files(results, trials, summary, markdown(summary))
+    return summary
+
+
+def markdown(summary: Mapping[str, Any]) -> str:
+    """A Markdown table for each row, how they were measured, and what failed."""
+    lines = summary["lines"]
+    parts = []
+    for row in dict.fromkeys(line["row"] for line in lines):
+        of_row = [line for line in lines if line["row"] == row]
+        parts += [f"### {row}, {_problems(of_row)} problems", "", _table(of_row), ""]
+    parts += [f"- {session_line(session)}" for session in summary["sessions"]]
+    failures = [
+        f"- {line['row']}, {line['system']}: {causes_line(line['causes'])}"
+        for line in lines
+        if line.get("causes")
+    ]
+    return "\n".join([*parts, *(["", "Not solved:", ""] if failures else []), *failures]) + "\n"
+
+
+def table_cells(
+    line: Mapping[str, Any], columns: Mapping[str, tuple[str, str]], *, intervals: bool
+) -> list[str]:
+    """The cells of a line: the system and some of `COLUMNS`."""
+    if not line["run"]:
+        return [line["system"], f"not run: {NO_WEIGHTS}", *[""] * (len(columns) - 1)]
+    values = (
+        interval_cell(line[measure], style, with_ends=intervals)
+        for measure, style in columns.values()
+    )
+    return [line["system"], *values]
+
+
+def _problems(lines: Sequence[Mapping[str, Any]]) -> str:
+    return f"{max(line.get('problems', 0) for line in lines):,}"
+
+
+def _table(lines: Sequence[Mapping[str, Any]]) -> str:
+    header = ["system", *COLUMNS, "paper: accuracy %, time s, vertices"]
+    rows = ([*table_cells(line, COLUMNS, intervals=True), _paper(line)] for line in lines)
+    return markdown_table(header, rows)
+
+
+def _paper(line: Mapping[str, Any]) -> str:
+    known = PAPER.get(line["row"], {}).get(line["system"])
+    return "" if known is None else "{:g}, {:g}, {:,}".format(*known)

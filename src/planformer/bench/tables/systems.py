@@ -1,0 +1,174 @@
+"""What the tables compare: planners with and without guidance, and searches on the grid."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from planformer.bench.guides import LazyThetaProposer
+from planformer.data.experts import HybridAstarExpert, LazyThetaExpert, astar_path
+from planformer.geometry import polyline_length
+from planformer.guidance import RegionProposer, guide_names, load_network
+from planformer.guidance.onnx import OnnxProposer
+from planformer.guidance.region import PAPER_THRESHOLD
+from planformer.planning import Problem, SearchLimits, path_is_valid, search
+
+CORRIDOR = "lazy-theta corridor"
+"""A guide without learning: the surroundings of the shortest any-angle path."""
+
+
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """What a system found.
+
+    Attributes:
+        path: (N, 2) or (N, 3) in the world frame, None without one.
+        length: Its length in metres, infinite without one.
+        vertices: Collision-free states in the search tree; 0 for a search on the grid.
+        proposal_seconds: Time of the region proposal.
+        planning_seconds: Time of the search.
+        status: Why the search ended.
+    """
+
+    path: NDArray[np.float64] | None
+    length: float
+    vertices: int
+    proposal_seconds: float
+    planning_seconds: float
+    status: str
+
+
+@dataclass(frozen=True)
+class GuidedPlanner:
+    """One of OMPL's planners, with or without a guide.
+
+    Attributes:
+        planner: OMPL class name.
+        guide: `CORRIDOR`, the name of shipped weights, or None.
+        threshold: As in `OnnxProposer`; by default the one that connects start and goal.
+        exploration: Share of the samples drawn from the whole map.
+    """
+
+    planner: str
+    guide: str | None = None
+    threshold: float | None = None
+    exploration: float = 0.0
+
+    @property
+    def is_available(self) -> bool:
+        """Whether the weights are there."""
+        return self.guide in (None, CORRIDOR, *guide_names())
+
+    def solve(self, problem: Problem, limits: SearchLimits, seed: int) -> Solution:
+        """Propose a region if there is a guide, and search."""
+        started = time.perf_counter()
+        region = None if self.guide is None else self._proposer().propose(problem).sampling()
+        seconds = 0.0 if self.guide is None else time.perf_counter() - started
+        result = search(
+            problem,
+            self.planner,
+            region=region,
+            exploration=self.exploration,
+            limits=limits,
+            seed=seed,
+        )
+        return Solution(
+            path=result.path if result.solved else None,
+            length=result.length,
+            vertices=result.vertices,
+            proposal_seconds=seconds,
+            planning_seconds=result.planning_seconds,
+            status=result.status.value,
+        )
+
+    def _proposer(self) -> RegionProposer:
+        assert self.guide is not None
+        if self.guide == CORRIDOR:
+            return LazyThetaProposer()
+        return OnnxProposer(load_network(self.guide), self.threshold)
+
+
+Solve = Callable[[Problem, int], NDArray[np.float64] | None]
+
+
+@dataclass(frozen=True)
+class GridSearch:
+    """A search on the grid, which ends by itself with the one path that it finds.
+
+    Attributes:
+        find: Gives a path of a problem, and takes a seed that it ignores.
+    """
+
+    find: Solve
+    is_available: bool = field(default=True, init=False)
+
+    def solve(self, problem: Problem, limits: SearchLimits, seed: int) -> Solution:
+        """Search, and check the path as planners' paths are checked; no limit applies."""
+        del limits
+        started = time.perf_counter()
+        path = self.find(problem, seed)
+        if path is not None and not path_is_valid(problem.grid, problem.robot, path):
+            return Solution(None, np.inf, 0, 0.0, time.perf_counter() - started, "invalid path")
+        return Solution(
+            path=path,
+            length=np.inf if path is None else polyline_length(path),
+            vertices=0,
+            proposal_seconds=0.0,
+            planning_seconds=time.perf_counter() - started,
+            status="finished",
+        )
+
+
+System = GuidedPlanner | GridSearch
+
+
+def _astar(problem: Problem, seed: int) -> NDArray[np.float64] | None:
+    del seed
+    return astar_path(problem.grid, problem.robot.radius, problem.start, problem.goal)
+
+
+_EE = 0.5
+"""Every other sample from the whole map, as the paper alternates."""
+
+POINT_SYSTEMS: dict[str, System] = {
+    "RRT*": GuidedPlanner("RRTstar"),
+    "IRRT*": GuidedPlanner("InformedRRTstar"),
+    "BIT*": GuidedPlanner("BITstar"),
+    "ABIT*": GuidedPlanner("ABITstar"),
+    "AIT*": GuidedPlanner("AITstar"),
+    "UNet-RRT*": GuidedPlanner("RRTstar", "unet", PAPER_THRESHOLD),
+    "UNet-RRT*-EE": GuidedPlanner("RRTstar", "unet", PAPER_THRESHOLD, _EE),
+    "MPT-RRT* (F.E.)": GuidedPlanner("RRTstar", "mpt-fixed-encoding", PAPER_THRESHOLD),
+    "MPT-IRRT* (F.E.)": GuidedPlanner("InformedRRTstar", "mpt-fixed-encoding", PAPER_THRESHOLD),
+    "MPT-RRT*": GuidedPlanner("RRTstar", "mpt"),
+    "MPT-IRRT*": GuidedPlanner("InformedRRTstar", "mpt"),
+    "MPT-BIT*": GuidedPlanner("BITstar", "mpt"),
+    "MPT-RRT*-EE": GuidedPlanner("RRTstar", "mpt", exploration=_EE),
+    "Corridor-RRT*": GuidedPlanner("RRTstar", CORRIDOR),
+    "Corridor-BIT*": GuidedPlanner("BITstar", CORRIDOR),
+    "A* + shortcut": GridSearch(_astar),
+    "Lazy Theta*": GridSearch(LazyThetaExpert().solve),
+}
+"""The systems of the tables for point robots, by the paper's names."""
+
+CAR_SYSTEMS: dict[str, System] = {
+    "RRT*": GuidedPlanner("RRTstar"),
+    "IRRT*": GuidedPlanner("InformedRRTstar"),
+    "SST": GuidedPlanner("SST"),
+    "MPT-RRT*": GuidedPlanner("RRTstar", "mpt-dubins"),
+    "MPT-IRRT*": GuidedPlanner("InformedRRTstar", "mpt-dubins"),
+    "MPT-RRT*-EE": GuidedPlanner("RRTstar", "mpt-dubins", exploration=_EE),
+    "Corridor-RRT*": GuidedPlanner("RRTstar", CORRIDOR),
+    "Hybrid-A*": GridSearch(HybridAstarExpert().solve),
+}
+"""The systems of the table for the car."""
+
+
+def guides() -> set[str]:
+    """Names of all weights that a system uses, shipped or not."""
+    every = (*POINT_SYSTEMS.values(), *CAR_SYSTEMS.values())
+    return {s.guide for s in every if isinstance(s, GuidedPlanner) and s.guide is not None}

@@ -1,0 +1,169 @@
+from __future__ import annotations
+
+import dataclasses
+import math
+
+import pytest
+
+from planformer.bench.tables import TableSettings, run_table
+from planformer.bench.tables.measure import lost_trials, measure_problem
+from planformer.bench.tables.record import NO_WEIGHTS, Trial
+from planformer.bench.tables.report import PAPER, markdown
+from planformer.bench.tables.summary import summarise
+from planformer.bench.tables.systems import CAR_SYSTEMS, POINT_SYSTEMS, GridSearch
+from planformer.errors import InvalidParameter, InvalidResults
+
+QUICK = TableSettings(slack=1.05, seconds=60.0, systems=("MPT-RRT*", "BIT*", "Lazy Theta*"))
+
+
+def trial(system="RRT*", problem=0, **changes):
+    values = {
+        "row": "small",
+        "problem": problem,
+        "scene": "",
+        "replaced": 0,
+        "system": system,
+        "status": "target reached",
+        "solved": True,
+        "cause": "",
+        "reference_length": 10.0,
+        "length": 10.1,
+        "vertices": 100,
+        "proposal_seconds": 0.01,
+        "planning_seconds": 0.02,
+    }
+    return Trial(**{**values, **changes})
+
+
+def test_each_system_has_a_trial_in_the_tables_order(small_row):
+    for problem in (0, 1):
+        trials = measure_problem(QUICK, (small_row, problem))
+        assert [t.system for t in trials] == ["BIT*", "MPT-RRT*", "Lazy Theta*"]
+        assert all(t.solved and t.length <= 1.05 * t.reference_length for t in trials)
+        assert len({t.reference_length for t in trials}) == 1
+    guided, grid = trials[1:]
+    assert guided.proposal_seconds > 0.0
+    assert guided.vertices > 1
+    assert (grid.proposal_seconds, grid.vertices) == (0.0, 0)
+
+
+def test_a_cars_systems(car_row):
+    settings = TableSettings(1.2, 5.0, systems=("MPT-RRT*", "Hybrid-A*", "Corridor-RRT*"))
+    trials = measure_problem(settings, (car_row, 0))
+    assert [t.system for t in trials] == ["MPT-RRT*", "Corridor-RRT*", "Hybrid-A*"]
+    assert trials[2].solved
+    assert math.isfinite(trials[2].length)
+
+
+def test_systems_without_weights_are_told_and_not_dropped(small_row):
+    settings = dataclasses.replace(QUICK, systems=("UNet-RRT*",))
+    (found,) = measure_problem(settings, (small_row, 0))
+    assert (found.cause, found.was_run, found.solved) == (NO_WEIGHTS, False, False)
+    (line,) = summarise([found], [small_row], 2.0)
+    assert not line["run"]
+    assert f"not run: {NO_WEIGHTS}" in markdown({"lines": [line], "sessions": []})
+
+
+def test_a_system_that_fails_is_a_counted_failure(small_row, monkeypatch):
+    def explode(problem, seed):
+        raise RuntimeError("out of\norder")
+
+    monkeypatch.setitem(POINT_SYSTEMS, "Lazy Theta*", GridSearch(explode))
+    trials = measure_problem(QUICK, (small_row, 0))
+    assert [t.solved for t in trials] == [True, True, False]
+    assert trials[2].cause == "RuntimeError: out of order"
+
+
+def test_a_wrong_path_is_no_solution(small_row, monkeypatch):
+    monkeypatch.setitem(
+        POINT_SYSTEMS, "Lazy Theta*", GridSearch(lambda problem, seed: _through_walls(problem))
+    )
+    found = measure_problem(QUICK, (small_row, 0))[2]
+    assert (found.solved, found.cause) == (False, "no path: invalid path")
+
+
+def _through_walls(problem):
+    import numpy as np
+
+    corner = np.array([[-1.0, -1.0]])
+    return np.concatenate([[problem.start], corner, [problem.goal]])
+
+
+def test_rrtstars_own_length_can_be_the_reference(small_row):
+    settings = dataclasses.replace(QUICK, reference="rrtstar", reference_seconds=0.2)
+    best = measure_problem(QUICK, (small_row, 0))
+    own = measure_problem(settings, (small_row, 0))
+    assert own[0].reference_length >= best[0].reference_length * 0.999
+
+
+def test_failures_count_at_the_limit(small_row):
+    trials = [trial(problem=i) for i in range(4)]
+    failed = {"solved": False, "cause": "time limit", "vertices": 5000, "planning_seconds": 0.5}
+    trials += [trial(problem=i, **failed) for i in (4, 5, 6, 7, 8)]
+    (line,) = summarise(trials, [small_row], limit=2.0)
+    assert line["accuracy_percent"]["value"] == pytest.approx(100 * 4 / 9)
+    assert line["seconds"]["value"] == 2.0
+    assert line["vertices"]["value"] == 5000
+    assert line["solved_by"]["0.05"] == pytest.approx(4 / 9)
+    assert line["solved_by"]["0.02"] == 0.0
+    assert line["causes"] == {"time limit": 5}
+
+
+def test_lost_problems_count_as_failures(small_row):
+    trials = lost_trials(QUICK, (small_row, 4), "the process died")
+    assert [t.cause for t in trials] == ["the process died"] * 3
+    lines = summarise(trials, [small_row], limit=2.0)
+    assert all(line["seconds"]["value"] == 2.0 for line in lines)
+    assert all(line["length_ratio"]["value"] is None for line in lines)
+
+
+def test_a_table_is_completed_and_other_settings_are_refused(tmp_path):
+    settings = TableSettings(slack=1.2, seconds=60.0, systems=("Lazy Theta*", "IRRT*"))
+    first = run_table(tmp_path / "t", "table3", problems=1, settings=settings)
+    rows = ["forest-360x240", "forest-480x240", "forest-560", "forest-780"]
+    assert [line["row"] for line in first["lines"]] == [r for r in rows for _ in range(2)]
+    assert all(line["accuracy_percent"]["value"] == 100.0 for line in first["lines"])
+    text = (tmp_path / "t" / "table.md").read_text()
+    assert "0.476, 255" in text  # the paper's IRRT* on the largest maps
+    again = run_table(tmp_path / "t", "table3", problems=1, settings=settings)
+    assert again["lines"] == first["lines"]
+    for other in ({"slack": 1.1}, {"systems": ("IRRT*",)}, {"reference": "rrtstar"}):
+        changed = dataclasses.replace(settings, **other)
+        with pytest.raises(InvalidResults, match=next(iter(other))):
+            run_table(tmp_path / "t", "table3", problems=1, settings=changed)
+
+
+@pytest.mark.parametrize(
+    "bad",
+    [
+        {"slack": 0.99},
+        {"slack": math.nan},
+        {"seconds": 0.0},
+        {"reference": "longest"},
+        {"reference_seconds": math.inf},
+        {"seed": -1},
+        {"systems": ("RRT",)},
+    ],
+)
+def test_bad_settings_are_refused(bad):
+    with pytest.raises(InvalidParameter, match=next(iter(bad))):
+        TableSettings(**bad)
+
+
+def test_bad_calls_are_refused(tmp_path):
+    for options, message in (
+        ({"table": "table1", "problems": 0}, "problems"),
+        ({"table": "table9", "problems": 1}, "table9"),
+        ({"table": "table5", "problems": 1}, "real maps"),
+    ):
+        with pytest.raises(InvalidParameter, match=message):
+            run_table(tmp_path, **options)
+    settings = TableSettings(systems=("Hybrid-A*",))
+    with pytest.raises(InvalidParameter, match="none of the systems"):
+        run_table(tmp_path, "table1", problems=1, settings=settings)
+
+
+def test_the_papers_names_are_those_of_systems():
+    for row, known in PAPER.items():
+        systems = CAR_SYSTEMS if row.startswith("dubins") else POINT_SYSTEMS
+        assert known.keys() <= systems.keys()
