@@ -70,7 +70,7 @@ def measure(problem: Problem, proposer: OnnxProposer, seed: int) -> list[dict[st
     started = time.perf_counter()
     proposal = proposer.propose(problem)
     seconds = time.perf_counter() - started
-    cells = spread(proposal.probability, problem.grid, proposer.network.weights.scale)
+    cells = spread(proposal.probability, problem.grid, proposer.network.scale)
     connecting = connecting_threshold(cells, problem)
     best = shortest_length(problem, problem.blocked)
     limits = SearchLimits(seconds=3.0, target_length=SLACK * best)

@@ -107,7 +107,7 @@ def test_a_region_with_headings_guides_a_car(room):
     class Northwards:
         def propose(self, problem):
             shape = (4, 6)
-            scale = load_network("mpt").weights.scale
+            scale = load_network("mpt").scale
             headings = np.full(shape, np.pi / 2)
             return make_region(problem, np.ones(shape, np.float32), scale, headings=headings)
 

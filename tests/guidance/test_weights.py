@@ -8,7 +8,8 @@ import pytest
 import planformer as pf
 from planformer.errors import InvalidWeights, UnknownGuide, WeightsMismatch
 from planformer.guidance import load_network
-from planformer.guidance.weights import SHIPPED, read_weights, weights_path
+from planformer.guidance.weights import weights_path
+from planformer.weights import SHIPPED, read_weights
 
 
 def test_shipped_weights_fit_their_cards():

@@ -130,7 +130,7 @@ class Variant:
     def scale(self) -> NetworkScale:
         """Scale at which the guide sees the map."""
         learned = self.guide not in UNLEARNED
-        return load_network(self.guide).weights.scale if learned else NetworkScale()
+        return load_network(self.guide).scale if learned else NetworkScale()
 
     def proposer(self, reference: NDArray[np.float64]) -> RegionProposer:
         """The proposer; only the ideal one makes use of the reference path."""

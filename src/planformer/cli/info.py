@@ -68,7 +68,8 @@ def _version(package: str) -> str | None:
 
 def _guide(name: str) -> dict[str, Any]:
     """What the card of shipped weights says, or why they cannot be used."""
-    from planformer.guidance.weights import read_weights, weights_path
+    from planformer.guidance.weights import weights_path
+    from planformer.weights import read_weights
 
     try:
         card = read_weights(weights_path(name)).card

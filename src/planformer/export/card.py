@@ -11,33 +11,19 @@ from typing import Any
 
 from planformer.files import whole_file
 from planformer.models import PRESETS, MPTConfig
-
-CARD_VERSION = 1
-"""Version of the card's format; raised when older readers would misread it."""
+from planformer.weights import CARD_VERSION
 
 
-def write_card(
-    weights: Path,
-    network: MPTConfig,
-    *,
-    name: str,
-    training: Mapping[str, Any],
-    accuracy: Mapping[str, Mapping[str, float]],
-) -> Path:
+def write_card(weights: Path, name: str, content: Mapping[str, Any]) -> Path:
     """Describe an .onnx file in a JSON file of the same name beside it, replaced as a whole.
 
-    Its keys: ``version`` of the format; ``name``; ``sha256`` of the .onnx file; ``robot``,
-    "point" or "dubins"; ``commit`` of the source they were exported with, null outside a
-    checkout; ``preset``, null for a network of one's own; ``network``, see
-    `MPTConfig.to_dict`; ``scale``, read by `NetworkScale.from_dict`; ``training`` and
-    ``accuracy`` as given.
+    Its first keys: ``version`` of the format; ``name``; ``sha256`` of the .onnx file; ``commit`` of
+    the source they were exported with, null outside a checkout.
 
     Args:
         weights: The .onnx file.
-        network: Configuration of the network.
         name: Name of the weights.
-        training: Settings of the training, its data and its steps.
-        accuracy: Validation metrics by kind of map.
+        content: Further keys.
 
     Returns:
         The card's path.
@@ -46,19 +32,41 @@ def write_card(
         "version": CARD_VERSION,
         "name": name,
         "sha256": hashlib.sha256(weights.read_bytes()).hexdigest(),
-        "robot": "dubins" if network.headings else "point",
         "commit": _commit(),
-        "preset": next((known for known, made in PRESETS.items() if made == network), None),
-        "network": network.to_dict(),
-        "scale": network.scale.to_dict(),
-        "training": dict(training),
-        "accuracy": {kind: dict(values) for kind, values in accuracy.items()},
+        **content,
     }
     path = weights.with_suffix(".json")
     text = json.dumps(card, indent=2, allow_nan=False) + "\n"
     with whole_file(path) as file:
         file.write(text.encode())
     return path
+
+
+def proposer_facts(
+    network: MPTConfig,
+    *,
+    training: Mapping[str, Any],
+    accuracy: Mapping[str, Mapping[str, float]],
+) -> dict[str, Any]:
+    """What a card says of a region proposer.
+
+    Its keys: ``robot``, "point" or "dubins"; ``preset``, null for a network of one's own;
+    ``network``, see `MPTConfig.to_dict`; ``scale``, read by `NetworkScale.from_dict`; ``training``
+    and ``accuracy`` as given.
+
+    Args:
+        network: Configuration of the network.
+        training: Settings of the training, its data and its steps.
+        accuracy: Validation metrics by kind of map.
+    """
+    return {
+        "robot": "dubins" if network.headings else "point",
+        "preset": next((known for known, made in PRESETS.items() if made == network), None),
+        "network": network.to_dict(),
+        "scale": network.scale.to_dict(),
+        "training": dict(training),
+        "accuracy": {kind: dict(values) for kind, values in accuracy.items()},
+    }
 
 
 def _commit() -> str | None:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from planformer.encoding import NetworkScale
 from planformer.errors import InvalidWeights, MissingExtra
-from planformer.export.card import write_card
+from planformer.export.card import proposer_facts, write_card
 from planformer.export.graph import MAP, QUERY, DeployedProposer, example_inputs, to_onnx
 from planformer.files import whole_file
 from planformer.models import load_checkpoint
@@ -75,13 +75,12 @@ def export(checkpoint: str | Path, path: str | Path, *, name: str | None = None)
     path.parent.mkdir(parents=True, exist_ok=True)
     with whole_file(path) as file:
         file.write(content)
-    card = write_card(
-        path,
+    facts = proposer_facts(
         network,
-        name=name or path.stem,
         training={key: stored.get(key) for key in ("training", "data", "step", "seconds")},
         accuracy=_last_metrics(stored.get("history", [])),
     )
+    card = write_card(path, name or path.stem, facts)
     return Exported(path, card, difference)
 
 

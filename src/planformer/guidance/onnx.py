@@ -12,11 +12,12 @@ import numpy as np
 import onnxruntime
 from numpy.typing import NDArray
 
-from planformer.encoding import encode_query, network_map
+from planformer.encoding import NetworkScale, encode_query, network_map
 from planformer.errors import InvalidParameter, InvalidWeights, WeightsMismatch
 from planformer.guidance.region import Region, make_region
-from planformer.guidance.weights import Weights, read_weights, weights_path
+from planformer.guidance.weights import scale_of, weights_path
 from planformer.planning import Problem
+from planformer.weights import Weights, read_weights
 
 _CONCENTRATIONS = (0.3, 100.0)
 """Bounds of the concentration: yaw deviations from 0.1 rad to nearly any yaw."""
@@ -41,9 +42,16 @@ class Prediction(NamedTuple):
 
 @dataclass(frozen=True)
 class OnnxNetwork:
-    """Weights with their ONNX Runtime session; loading takes a while, running does not."""
+    """Weights with their ONNX Runtime session; loading takes a while, running does not.
+
+    Attributes:
+        weights: The file and its card.
+        scale: Geometry of the network's input and output.
+        session: What evaluates the network.
+    """
 
     weights: Weights
+    scale: NetworkScale
     session: onnxruntime.InferenceSession
 
     def predict(self, problem: Problem) -> Prediction:
@@ -53,7 +61,7 @@ class OnnxNetwork:
             WeightsMismatch: The network does not fit the robot or its card.
             InvalidWeights: It predicts values that are not finite.
         """
-        scale = self.weights.scale
+        scale = self.scale
         if scale.headings and problem.robot.state_dimension == 2:
             raise WeightsMismatch(
                 f"the weights {self.weights.name} need start and goal headings, which a "
@@ -84,7 +92,7 @@ class OnnxNetwork:
         return outputs
 
     def _check(self, outputs: list[NDArray[np.float32]], tokens: tuple[int, ...]) -> None:
-        vectors = self.weights.scale.headings + self.weights.scale.offsets
+        vectors = self.scale.headings + self.scale.offsets
         expected = [(1, 1, *tokens), *[(1, 2, *tokens)] * vectors]
         shapes = [np.shape(output) for output in outputs]
         if shapes != expected:
@@ -128,7 +136,7 @@ class OnnxProposer:
         return make_region(
             problem,
             prediction.probability,
-            self.network.weights.scale,
+            self.network.scale,
             headings=prediction.headings,
             yaw_deviations=prediction.yaw_deviations,
             offsets=prediction.offsets,
@@ -152,8 +160,9 @@ def load_network(guide: str) -> OnnxNetwork:
 @lru_cache(maxsize=8)
 def _load(path: Path, modified: int) -> OnnxNetwork:
     weights = read_weights(path)
+    scale = scale_of(weights)
     try:
         session = onnxruntime.InferenceSession(weights.model, providers=["CPUExecutionProvider"])
     except Exception as error:  # ONNX Runtime's exceptions share no public base class
         raise InvalidWeights(f"ONNX Runtime cannot load {path}: {error}") from error
-    return OnnxNetwork(weights, session)
+    return OnnxNetwork(weights, scale, session)

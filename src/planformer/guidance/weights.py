@@ -1,42 +1,15 @@
-"""Find weights and read the card beside them."""
+"""Find the weights of a region proposer."""
 
 from __future__ import annotations
 
-import hashlib
-import json
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from planformer.encoding import NetworkScale
-from planformer.errors import InvalidParameter, InvalidWeights, UnknownGuide, WeightsMismatch
-
-SHIPPED = Path(__file__).resolve().parent.parent / "weights"
+from planformer.errors import InvalidParameter, InvalidWeights, UnknownGuide
+from planformer.weights import SHIPPED, Weights
 
 ALIASES = {"mpt": "mpt_small.forest_maze_indoor", "mpt-dubins": "mpt_dubins.forest_indoor"}
 """Short names for the recommended weights."""
-
-CARD_VERSION = 1
-
-
-@dataclass(frozen=True)
-class Weights:
-    """An .onnx file that fits its card.
-
-    Attributes:
-        model: The file's content.
-        scale: Geometry of the network's input and output.
-        card: The whole card.
-    """
-
-    model: bytes
-    scale: NetworkScale
-    card: dict[str, Any]
-
-    @property
-    def name(self) -> str:
-        """The weights' own name, architecture.tag."""
-        return str(self.card.get("name", "unnamed"))
 
 
 def guide_names() -> list[str]:
@@ -60,28 +33,14 @@ def weights_path(guide: str) -> Path:
     return path
 
 
-def read_weights(path: Path) -> Weights:
-    """Read an .onnx file and the .json card beside it.
+def scale_of(weights: Weights) -> NetworkScale:
+    """Geometry of the network's input and output, from the card.
 
     Raises:
-        InvalidWeights: A file cannot be read or the card is damaged.
-        WeightsMismatch: The .onnx file is not the one that the card describes.
+        InvalidWeights: The card has none: the weights are no region proposer's, or damaged.
     """
-    card_path = path.with_suffix(".json")
     try:
-        model = path.read_bytes()
-        card = json.loads(card_path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        raise InvalidWeights(f"cannot read the weights {path} and their card: {error}") from error
-    if not isinstance(card, dict) or card.get("version") != CARD_VERSION:
-        raise InvalidWeights(f"{card_path} is no card of version {CARD_VERSION}")
-    if card.get("sha256") != hashlib.sha256(model).hexdigest():
-        raise WeightsMismatch(
-            f"{path} is not the file that {card_path.name} describes (sha256 differs): it is "
-            "truncated or was replaced; export it again or reinstall planformer"
-        )
-    try:
-        scale = NetworkScale.from_dict(card["scale"])
+        return NetworkScale.from_dict(weights.card["scale"])
     except (KeyError, TypeError, InvalidParameter) as error:
-        raise InvalidWeights(f"{card_path} has no valid scale: {error}") from error
-    return Weights(model, scale, card)
+        card = weights.path.with_suffix(".json")
+        raise InvalidWeights(f"{card} has no valid scale: {error}") from error
