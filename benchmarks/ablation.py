@@ -27,7 +27,7 @@ from planformer.bench.statistics import bootstrap_interval, share_interval
 from planformer.data.generate import generate_dataset
 from planformer.encoding import QueryKind
 from planformer.files import write_files
-from planformer.models import CompactBody, MPTConfig, TransformerBody, load_checkpoint, preset
+from planformer.models import CompactBody, MPTConfig, load_checkpoint, preset
 from planformer.training import TrainConfig, open_paths, train
 from planformer.training.sources import PathSource
 from planformer.training.validation import measurements
@@ -41,9 +41,6 @@ sides."""
 TINY = preset("tiny")
 BODY = TINY.body
 assert isinstance(BODY, CompactBody)
-PAPER = TransformerBody(
-    width=128, layers=3, heads=3, key_width=64, value_width=64, feed_forward=256
-)
 
 
 @dataclass(frozen=True)
@@ -57,7 +54,6 @@ class Variant:
 def variants(steps: int, teacher: Path | None) -> dict[str, Variant]:
     """All variants by name; the one that imitates only where there is a teacher."""
     slow = {"learning_rate": 5e-4, "warmup_steps": max(steps // 10, 1)}
-    fixed = replace(PAPER, shift_positions=False)
     known = {
         "baseline": Variant(),
         "markers_query": Variant(replace(TINY, query=QueryKind.MARKERS)),
@@ -68,8 +64,8 @@ def variants(steps: int, teacher: Path | None) -> dict[str, Variant]:
         "positive_weight_1": Variant(changes={"positive_weight": 1.0}),
         "positive_weight_2": Variant(changes={"positive_weight": 2.0}),
         "imitation": Variant(changes={"teacher": str(teacher)}),
-        "paper_shifted_encoding": Variant(MPTConfig(PAPER, QueryKind.SQUARE), slow),
-        "paper_fixed_encoding": Variant(MPTConfig(fixed, QueryKind.SQUARE), slow),
+        "paper_shifted_encoding": Variant(preset("paper-small"), slow),
+        "paper_fixed_encoding": Variant(preset("paper-small-fixed-encoding"), slow),
     }
     return {name: v for name, v in known.items() if teacher or name != "imitation"}
 

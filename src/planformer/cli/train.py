@@ -23,8 +23,16 @@ def train_command(
     ],
     output: Annotated[Path, typer.Argument(metavar="FOLDER", help="Folder of the training.")],
     preset: Annotated[
-        str, typer.Option(help="Network: small, tiny, dubins, paper or paper-fixed-encoding.")
+        str,
+        typer.Option(
+            help="Network: small, tiny, dubins, paper, paper-small, unet or unet-small; the paper's"
+            " with -fixed-encoding as well."
+        ),
     ] = "small",
+    recipe: Annotated[
+        str | None,
+        typer.Option(help="Loss and optimiser: paper or compact. Default: the preset's."),
+    ] = None,
     steps: Annotated[int | None, typer.Option(help="End after this many steps.")] = None,
     minutes: Annotated[float | None, typer.Option(help="End after this training time.")] = None,
     batch_size: Annotated[int | None, typer.Option(help="Problems a step.")] = None,
@@ -61,6 +69,7 @@ def train_command(
     network = network_preset(preset)
     config = config_for(
         network,
+        recipe=recipe,
         steps=steps,
         seconds=None if minutes is None else 60.0 * minutes,
         batch_size=batch_size,

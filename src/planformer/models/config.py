@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field, fields
+from dataclasses import asdict, dataclass, field, fields, replace
 from typing import Any, TypeAlias, TypeVar
 
 from planformer.encoding.scale import NetworkScale, QueryKind
@@ -206,12 +206,20 @@ def _require_positive(config: object, names: str) -> None:
             raise InvalidParameter(f"{name} must be >= 1; got {getattr(config, name)}")
 
 
+_PAPER = TransformerBody()
+_PAPER_SMALL = TransformerBody(width=128, layers=3, key_width=64, value_width=64, feed_forward=256)
+
 PRESETS: dict[str, MPTConfig] = {
-    "paper": MPTConfig(TransformerBody(), QueryKind.SQUARE),
-    "paper-fixed-encoding": MPTConfig(TransformerBody(shift_positions=False), QueryKind.SQUARE),
+    "paper": MPTConfig(_PAPER, QueryKind.SQUARE),
+    "paper-fixed-encoding": MPTConfig(replace(_PAPER, shift_positions=False), QueryKind.SQUARE),
+    "paper-small": MPTConfig(_PAPER_SMALL, QueryKind.SQUARE),
+    "paper-small-fixed-encoding": MPTConfig(
+        replace(_PAPER_SMALL, shift_positions=False), QueryKind.SQUARE
+    ),
     "small": MPTConfig(),
     "tiny": MPTConfig(CompactBody(width=48, stem=24, blocks=2, expansion=2)),
     "unet": MPTConfig(UNetBody(), QueryKind.SQUARE),
+    "unet-small": MPTConfig(UNetBody((16, 32, 64, 128, 128)), QueryKind.SQUARE),
     "dubins": MPTConfig(headings=True, offsets=True),
 }
 

@@ -129,9 +129,14 @@ class TrainConfig:
 def config_for(network: MPTConfig, **given: Any) -> TrainConfig:
     """Settings for a network: those given and not None; the rest are its recipe's defaults.
 
+    The paper's networks, the U-Nets among them, have the paper's recipe, others the compact one.
+
     Raises:
         InvalidParameter: A value is out of range.
     """
-    is_paper = not isinstance(network.body, CompactBody)
-    defaults: dict[str, Any] = {"recipe": Recipe.PAPER, "warmup_steps": 3200} if is_paper else {}
-    return TrainConfig(**defaults | {k: v for k, v in given.items() if v is not None})
+    given = {key: value for key, value in given.items() if value is not None}
+    usual = Recipe.COMPACT if isinstance(network.body, CompactBody) else Recipe.PAPER
+    defaults: dict[str, Any] = {"recipe": usual}
+    if given.get("recipe", usual) == Recipe.PAPER:
+        defaults["warmup_steps"] = 3200
+    return TrainConfig(**defaults | given)
