@@ -13,11 +13,11 @@ from planformer import errors
 from planformer.errors import PlanformerError
 
 if TYPE_CHECKING:
+    from planformer.api import plan as plan
+    from planformer.api import propose_region as propose_region
     from planformer.guidance import Region as Region
     from planformer.guidance import RegionProposer as RegionProposer
     from planformer.guidance import guide_names as guide_names
-    from planformer.guidance.plan import plan as plan
-    from planformer.guidance.plan import propose_region as propose_region
     from planformer.maps import OccupancyGrid as OccupancyGrid
     from planformer.maps import generate_forest as generate_forest
     from planformer.maps import generate_indoor as generate_indoor
@@ -55,9 +55,9 @@ _HOME = {
     "load_map": "maps",
     "load_scenarios": "maps",
     "path_is_valid": "planning",
-    "plan": "guidance",
+    "plan": "api",
     "planner_names": "planning",
-    "propose_region": "guidance",
+    "propose_region": "api",
     "save_map": "maps",
 }
 

@@ -61,7 +61,8 @@ def test_parameter_counts():
 def test_presets_make_the_anchors_of_their_scale(name):
     config = preset(name)
     side = 480 // config.scale.stride
-    assert side == (480 if name.startswith("unet") else 24)  # a pixel's corner each, or a metre apart
+    # A pixel's corner each, or a metre apart.
+    assert side == (480 if name.startswith("unet") else 24)
     proposal = _evaluate(create_model(name), _inputs(config, 480, 480))
     assert proposal.logits.shape == (1, 1, side, side)
     assert (proposal.heading is not None) == config.headings

@@ -106,9 +106,9 @@ def plan_command(
     """
     import numpy as np
 
+    from planformer.api import plan
     from planformer.cli.interrupt import stoppable
     from planformer.cli.report import PlanReport, require_writable
-    from planformer.guidance import plan
     from planformer.maps import load_map
 
     ends = parse_state(start, "--start"), parse_state(goal, "--goal")

@@ -1,8 +1,7 @@
 """Guidance: networks propose a region of the map, planners search there."""
 
 from planformer.guidance.onnx import OnnxNetwork, OnnxProposer, load_network
-from planformer.guidance.plan import plan, propose_region
-from planformer.guidance.proposer import RegionProposer
+from planformer.guidance.proposer import RegionProposer, resolve_guide
 from planformer.guidance.region import Region, make_region
 from planformer.guidance.weights import guide_names
 
@@ -14,6 +13,5 @@ __all__ = [
     "guide_names",
     "load_network",
     "make_region",
-    "plan",
-    "propose_region",
+    "resolve_guide",
 ]

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Protocol, runtime_checkable
 
+from planformer.errors import InvalidParameter, UnknownGuide
+from planformer.guidance.onnx import OnnxProposer, load_network
 from planformer.guidance.region import Region
 from planformer.planning import Problem
 
@@ -15,3 +17,23 @@ class RegionProposer(Protocol):
     def propose(self, problem: Problem) -> Region:
         """Propose a region for a problem."""
         ...
+
+
+def resolve_guide(guide: str | RegionProposer, threshold: float | None = None) -> RegionProposer:
+    """Turn the name of shipped weights or the path of an .onnx file into a proposer.
+
+    Raises:
+        UnknownGuide: The name is unknown, or the object cannot propose regions.
+        InvalidParameter: A threshold is out of range, or given for an object that has its own.
+    """
+    if isinstance(guide, str):
+        return OnnxProposer(load_network(guide), threshold)
+    if not isinstance(guide, RegionProposer):
+        raise UnknownGuide(
+            f"guide must be a name, a RegionProposer or None; got {type(guide).__name__}"
+        )
+    if threshold is not None:
+        raise InvalidParameter(
+            f"a threshold needs the name of weights as guide; set it in the {type(guide).__name__}"
+        )
+    return guide

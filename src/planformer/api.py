@@ -7,10 +7,7 @@ import time
 from collections.abc import Sequence
 from typing import cast
 
-from planformer.errors import InvalidParameter, UnknownGuide
-from planformer.guidance.onnx import OnnxProposer, load_network
-from planformer.guidance.proposer import RegionProposer
-from planformer.guidance.region import Region
+from planformer.guidance import Region, RegionProposer, resolve_guide
 from planformer.maps import OccupancyGrid
 from planformer.planning import CancelToken, PlanResult, Problem, SearchLimits, search
 from planformer.planning.problem import State
@@ -99,23 +96,3 @@ def propose_region(
     """Propose where on the map a good path runs, without planning; arguments as in `plan`."""
     problem = Problem(grid, robot, cast(State, start), cast(State, goal))
     return resolve_guide(guide, threshold).propose(problem)
-
-
-def resolve_guide(guide: str | RegionProposer, threshold: float | None = None) -> RegionProposer:
-    """Turn the name of shipped weights or the path of an .onnx file into a proposer.
-
-    Raises:
-        UnknownGuide: The name is unknown, or the object cannot propose regions.
-        InvalidParameter: A threshold is out of range, or given for an object that has its own.
-    """
-    if isinstance(guide, str):
-        return OnnxProposer(load_network(guide), threshold)
-    if not isinstance(guide, RegionProposer):
-        raise UnknownGuide(
-            f"guide must be a name, a RegionProposer or None; got {type(guide).__name__}"
-        )
-    if threshold is not None:
-        raise InvalidParameter(
-            f"a threshold needs the name of weights as guide; set it in the {type(guide).__name__}"
-        )
-    return guide
