@@ -20,12 +20,16 @@ def test_accuracy_writes_prints_and_completes(cli, tmp_path):
     assert json.loads((folder / "summary.json").read_text()) == summary
 
 
-def test_accuracy_updates_a_page(cli, tmp_path):
-    page = tmp_path / "page.md"
-    page.write_text("<!-- begin accuracy table -->\n<!-- end accuracy table -->\n")
-    options = ("--output", tmp_path / "out", "--page", page)
-    assert cli("bench", "accuracy", *QUICK, *options).exit_code == 0
-    assert "| forest-360x240 | wavefront | fixed | 1 |" in page.read_text()
+def test_pages_take_in_the_results(cli, tmp_path):
+    folder, page = tmp_path / "accuracy" / "point", tmp_path / "page.md"
+    assert cli("bench", "accuracy", *QUICK, "--output", folder).exit_code == 0
+    page.write_text("<!-- accuracy-point:begin -->\n<!-- accuracy-point:end -->\n")
+    for _ in range(2):
+        result = cli("bench", "pages", page, "--results", tmp_path)
+        assert result.exit_code == 0, result.output
+        table = (folder / "table.md").read_text()
+        marked = f"<!-- accuracy-point:begin -->\n\n{table}\n<!-- accuracy-point:end -->\n"
+        assert page.read_text() == marked
 
 
 @pytest.mark.parametrize(
@@ -58,6 +62,12 @@ def test_a_table_is_measured_and_printed(cli, tmp_path):
     assert result.exit_code == 0, result.output
     assert "Lazy Theta*" in result.output
     assert (tmp_path / "table2" / "table.md").read_text().startswith("### maze-480, 1 problems")
+    figures = [tmp_path / "table2" / f"{name}-maze-480.png" for name in ("letter_values", "solved")]
+    assert all(figure.exists() for figure in figures)
+    figures[0].unlink()
+    assert cli("bench", "plot", tmp_path / "table2").exit_code == 0
+    assert figures[0].exists()
+    assert cli("bench", "plot", tmp_path).exit_code == 2
 
 
 def test_an_unknown_system_is_an_error_with_the_choices(cli, tmp_path):

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import gzip
 import json
+import zlib
 from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
-from planformer.bench.records import to_csv
+from planformer.bench.records import from_csv, to_csv
 from planformer.bench.store import Record, ResultFolder, write_text
+from planformer.errors import InvalidResults
 from planformer.files import whole_file
 
 SUMMARY, TABLE, PROBLEMS = "summary.json", "table.md", "problems.csv.gz"
@@ -26,6 +29,36 @@ def write_files(
     with whole_file(results.path / PROBLEMS) as file:
         # Without the time in it, so that the same records make the same file.
         file.write(gzip.compress(to_csv(records, results.kind).encode(), mtime=0))
+
+
+def read_summary(folder: Path) -> dict[str, Any]:
+    """The content of summary.json in a folder that `write_files` has written.
+
+    Raises:
+        InvalidResults: It is missing or damaged.
+    """
+    path = folder / SUMMARY
+    try:
+        return dict(json.loads(path.read_text(encoding="utf-8")))
+    except (OSError, ValueError, TypeError) as error:
+        raise InvalidResults(f"{path} is missing or damaged: {error}") from error
+
+
+def read_records(folder: Path, kind: type[Record]) -> list[Record]:
+    """The records in a folder that `write_files` has written.
+
+    Args:
+        folder: The folder.
+        kind: The dataclass of the records.
+
+    Raises:
+        InvalidResults: They are missing, damaged or of another kind.
+    """
+    path = folder / PROBLEMS
+    try:
+        return from_csv(gzip.decompress(path.read_bytes()).decode(), kind)
+    except (OSError, EOFError, zlib.error, ValueError) as error:  # InvalidResults is a ValueError
+        raise InvalidResults(f"{path} is missing or damaged: {error}") from error
 
 
 def markdown_table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:

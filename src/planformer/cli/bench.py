@@ -46,9 +46,6 @@ def accuracy_command(
         int | None, typer.Option(help="End a search at this many vertices as well.")
     ] = None,
     seed: Annotated[int, typer.Option(help="Seed of the problems.")] = 0,
-    page: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="Page to put the table into.")
-    ] = None,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print the summary as JSON and nothing else.")
     ] = False,
@@ -60,7 +57,6 @@ def accuracy_command(
     Example: planformer bench accuracy --problems 5 --rows forest-480,maze-480
     """
     from planformer.bench import AccuracySettings, run_accuracy
-    from planformer.bench.accuracy.report import markdown, update_page
     from planformer.bench.rows import chosen_rows
 
     names = None if rows is None else [name.strip() for name in rows.split(",")]
@@ -76,8 +72,6 @@ def accuracy_command(
             workers=workers,
             report=show,
         )
-    if page is not None:
-        update_page(page, markdown(summary))
     if as_json:
         print_json(summary)
     else:
@@ -199,6 +193,47 @@ bench_app.command("all", help="All tables. Ctrl-C keeps what is measured.")(
 )
 
 
+@bench_app.command("plot")
+def plot_command(
+    folders: Annotated[
+        list[Path], typer.Argument(metavar="FOLDER...", help="Folders of tables' results.")
+    ],
+) -> None:
+    """Draw the figures of measured tables again.
+
+    For each row the distributions of time and vertices, and the shares solved by a deadline.
+
+    Example: planformer bench plot benchmarks/results/table1
+    """
+    from planformer.bench.tables.figures import write_figures
+
+    for folder in folders:
+        for file in write_figures(folder):
+            stdout.print(str(file), soft_wrap=True)
+
+
+@bench_app.command("pages")
+def pages_command(
+    pages: Annotated[list[Path], typer.Argument(metavar="PAGE...", help="Markdown files.")],
+    results: Annotated[
+        Path, typer.Option(metavar="FOLDER", help="Folder that holds table1, accuracy/point, ...")
+    ] = Path("benchmarks/results"),
+) -> None:
+    """Put results into pages, between <!-- table1:begin --> and <!-- table1:end -->.
+
+    Blocks are table1 to table5, accuracy-point, -maze, -car and -real; table1-short and
+    accuracy-short are shorter.
+
+    Example: planformer bench pages README.md docs/accuracy.md docs/results.md
+    """
+    from planformer.bench.pages import updated_page
+    from planformer.files import write_files
+
+    texts = {page: updated_page(page, results).encode() for page in pages}
+    write_files(texts)
+    stdout.print(", ".join(map(str, pages)), soft_wrap=True)
+
+
 def _print_systems(summary: dict[str, Any], output: Path) -> None:
     from rich.table import Column, Table
 
@@ -212,4 +247,4 @@ def _print_systems(summary: dict[str, Any], output: Path) -> None:
             if line["row"] == row:
                 table.add_row(*table_cells(line, columns, intervals=False))
         stdout.print(table)
-    stdout.print(f"{output}: summary.json, table.md, problems.csv.gz", soft_wrap=True)
+    stdout.print(f"{output}: summary.json, table.md, problems.csv.gz, figures", soft_wrap=True)

@@ -6,9 +6,8 @@ import pytest
 
 from planformer.bench import AccuracySettings, run_accuracy
 from planformer.bench.accuracy.record import Record
-from planformer.bench.accuracy.report import BEGIN, COLUMNS, END, markdown, update_page
+from planformer.bench.accuracy.report import COLUMNS, markdown
 from planformer.bench.records import from_csv
-from planformer.errors import InvalidResults
 
 
 @pytest.fixture
@@ -31,22 +30,3 @@ def test_the_table_has_every_line_and_what_failed(summary, tmp_path):
 def test_all_records_are_kept(summary, tmp_path):
     packed = (tmp_path / "out" / "problems.csv.gz").read_bytes()
     assert [r.problem for r in from_csv(gzip.decompress(packed).decode(), Record)] == [0, 1]
-
-
-def test_the_table_takes_its_place_in_a_page(tmp_path):
-    page = tmp_path / "page.md"
-    page.write_text(f"before\n\n{BEGIN}\n\nold\n\n{END}\n\nafter\n")
-    for _ in range(2):
-        update_page(page, "| new |\n")
-        assert page.read_text() == f"before\n\n{BEGIN}\n\n| new |\n\n{END}\n\nafter\n"
-
-
-@pytest.mark.parametrize("text", ["", f"{BEGIN}\n", f"{END}\n{BEGIN}\n", f"{BEGIN}\n{END}{END}"])
-def test_a_page_without_its_markers_is_refused(tmp_path, text):
-    page = tmp_path / "page.md"
-    page.write_text(text)
-    with pytest.raises(InvalidResults, match="must hold"):
-        update_page(page, "table\n")
-    assert page.read_text() == text
-    with pytest.raises(InvalidResults, match="must hold"):
-        update_page(tmp_path / "none.md", "table\n")

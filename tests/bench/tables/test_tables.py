@@ -7,32 +7,13 @@ import pytest
 
 from planformer.bench.tables import TableSettings, run_table
 from planformer.bench.tables.measure import lost_trials, measure_problem
-from planformer.bench.tables.record import NO_WEIGHTS, Trial
+from planformer.bench.tables.record import NO_WEIGHTS
 from planformer.bench.tables.report import PAPER, markdown
 from planformer.bench.tables.summary import summarise
 from planformer.bench.tables.systems import CAR_SYSTEMS, POINT_SYSTEMS, GridSearch
 from planformer.errors import InvalidParameter, InvalidResults
 
 QUICK = TableSettings(slack=1.05, seconds=60.0, systems=("MPT-RRT*", "BIT*", "Lazy Theta*"))
-
-
-def trial(system="RRT*", problem=0, **changes):
-    values = {
-        "row": "small",
-        "problem": problem,
-        "scene": "",
-        "replaced": 0,
-        "system": system,
-        "status": "target reached",
-        "solved": True,
-        "cause": "",
-        "reference_length": 10.0,
-        "length": 10.1,
-        "vertices": 100,
-        "proposal_seconds": 0.01,
-        "planning_seconds": 0.02,
-    }
-    return Trial(**{**values, **changes})
 
 
 def test_each_system_has_a_trial_in_the_tables_order(small_row):
@@ -96,10 +77,10 @@ def test_rrtstars_own_length_can_be_the_reference(small_row):
     assert own[0].reference_length >= best[0].reference_length * 0.999
 
 
-def test_failures_count_at_the_limit(small_row):
-    trials = [trial(problem=i) for i in range(4)]
+def test_failures_count_at_the_limit(small_row, make_trial):
+    trials = [make_trial(problem=i) for i in range(4)]
     failed = {"solved": False, "cause": "time limit", "vertices": 5000, "planning_seconds": 0.5}
-    trials += [trial(problem=i, **failed) for i in (4, 5, 6, 7, 8)]
+    trials += [make_trial(problem=i, **failed) for i in (4, 5, 6, 7, 8)]
     (line,) = summarise(trials, [small_row], limit=2.0)
     assert line["accuracy_percent"]["value"] == pytest.approx(100 * 4 / 9)
     assert line["seconds"]["value"] == 2.0
@@ -124,7 +105,7 @@ def test_a_table_is_completed_and_other_settings_are_refused(tmp_path):
     assert [line["row"] for line in first["lines"]] == [r for r in rows for _ in range(2)]
     assert all(line["accuracy_percent"]["value"] == 100.0 for line in first["lines"])
     text = (tmp_path / "t" / "table.md").read_text()
-    assert "0.476, 255" in text  # the paper's IRRT* on the largest maps
+    assert "| 0.476 | 255 |" in text  # the paper's IRRT* on the largest maps
     again = run_table(tmp_path / "t", "table3", problems=1, settings=settings)
     assert again["lines"] == first["lines"]
     for other in ({"slack": 1.1}, {"systems": ("IRRT*",)}, {"reference": "rrtstar"}):

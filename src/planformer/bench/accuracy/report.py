@@ -1,9 +1,8 @@
-"""The files of a finished benchmark: summary, table, all records; and the table in a page."""
+"""The files of a finished benchmark: summary, table, all records."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 from planformer.bench.accuracy.record import Record
@@ -16,10 +15,7 @@ from planformer.bench.reporting import (
     write_files,
 )
 from planformer.bench.rows import Row
-from planformer.bench.store import ResultFolder, write_text
-from planformer.errors import InvalidResults
-
-BEGIN, END = "<!-- begin accuracy table -->", "<!-- end accuracy table -->"
+from planformer.bench.store import ResultFolder
 
 COLUMNS = {
     "solved %": ("solved_percent", ".1f"),
@@ -79,17 +75,3 @@ def table_cells(
         for measure, style in columns.values()
     ]
     return [line["row"], line["guide"], line["threshold"], f"{line['problems']:,}", *values]
-
-
-def update_page(page: Path, table: str) -> None:
-    """Put a table between the markers of a page.
-
-    Raises:
-        InvalidResults: The page cannot be read or lacks the markers.
-    """
-    try:
-        before, rest = page.read_text(encoding="utf-8").split(f"{BEGIN}\n")
-        _, after = rest.split(END)
-    except (OSError, ValueError) as error:
-        raise InvalidResults(f"{page} must hold {BEGIN} and {END} once, in this order") from error
-    write_text(page, f"{before}{BEGIN}\n\n{table}\n{END}{after}")

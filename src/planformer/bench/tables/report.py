@@ -100,6 +100,8 @@ PAPER: Mapping[str, Mapping[str, tuple[float, float, int]]] = {
 }
 """Accuracy in percent, median time in seconds and median vertices in the paper's tables I to IV."""
 
+_PAPER_COLUMNS = ("paper: accuracy %", "paper: time s", "paper: vertices")
+
 
 def write_report(
     results: ResultFolder[Trial], trials: Sequence[Trial], rows: Sequence[Row], limit: float
@@ -121,10 +123,7 @@ def write_report(
 def markdown(summary: Mapping[str, Any]) -> str:
     """A Markdown table for each row, how they were measured, and what failed."""
     lines = summary["lines"]
-    parts = []
-    for row in dict.fromkeys(line["row"] for line in lines):
-        of_row = [line for line in lines if line["row"] == row]
-        parts += [f"### {row}, {_problems(of_row)} problems", "", _table(of_row), ""]
+    parts = _tables(lines, COLUMNS, intervals=True)
     parts += [f"- {session_line(session)}" for session in summary["sessions"]]
     failures = [
         f"- {line['row']}, {line['system']}: {causes_line(line['causes'])}"
@@ -132,6 +131,12 @@ def markdown(summary: Mapping[str, Any]) -> str:
         if line.get("causes")
     ]
     return "\n".join([*parts, *(["", "Not solved:", ""] if failures else []), *failures]) + "\n"
+
+
+def short_markdown(summary: Mapping[str, Any]) -> str:
+    """A Markdown table for each row with the columns of `SHORT` alone, without intervals."""
+    columns = {name: COLUMNS[name] for name in SHORT}
+    return "\n".join(_tables(summary["lines"], columns, intervals=False))
 
 
 def table_cells(
@@ -147,16 +152,28 @@ def table_cells(
     return [line["system"], *values]
 
 
-def _problems(lines: Sequence[Mapping[str, Any]]) -> str:
-    return f"{max(line.get('problems', 0) for line in lines):,}"
+def _tables(
+    lines: Sequence[Mapping[str, Any]], columns: Mapping[str, tuple[str, str]], *, intervals: bool
+) -> list[str]:
+    """A heading and a table for each row, as paragraphs with empty lines between."""
+    paragraphs = []
+    for row in dict.fromkeys(line["row"] for line in lines):
+        of_row = [line for line in lines if line["row"] == row]
+        problems = max(line.get("problems", 0) for line in of_row)
+        header = ["system", *columns, *(_PAPER_COLUMNS if row in PAPER else ())]
+        cells = (
+            [*table_cells(line, columns, intervals=intervals), *_paper(line)] for line in of_row
+        )
+        heading = f"### {row}, {problems:,} problems"
+        paragraphs += [heading, "", markdown_table(header, cells), ""]
+    return paragraphs
 
 
-def _table(lines: Sequence[Mapping[str, Any]]) -> str:
-    header = ["system", *COLUMNS, "paper: accuracy %, time s, vertices"]
-    rows = ([*table_cells(line, COLUMNS, intervals=True), _paper(line)] for line in lines)
-    return markdown_table(header, rows)
-
-
-def _paper(line: Mapping[str, Any]) -> str:
-    known = PAPER.get(line["row"], {}).get(line["system"])
-    return "" if known is None else "{:g}, {:g}, {:,}".format(*known)
+def _paper(line: Mapping[str, Any]) -> list[str]:
+    """The paper's numbers beside a system: empty cells where it has none, none on other rows."""
+    if line["row"] not in PAPER:
+        return []
+    if line["system"] not in PAPER[line["row"]]:
+        return [""] * len(_PAPER_COLUMNS)
+    accuracy, seconds, vertices = PAPER[line["row"]][line["system"]]
+    return [f"{accuracy:g}", f"{seconds:g}", f"{vertices:,}"]

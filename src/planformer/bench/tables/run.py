@@ -15,6 +15,7 @@ from planformer.bench.guides import fingerprints
 from planformer.bench.rows import REAL, all_rows
 from planformer.bench.running import Progress, complete
 from planformer.bench.store import ResultFolder
+from planformer.bench.tables.figures import write_figures
 from planformer.bench.tables.measure import TableSettings, lost_trials, measure_problem
 from planformer.bench.tables.record import Trial
 from planformer.bench.tables.report import write_report
@@ -52,7 +53,8 @@ def run_table(
     ``if __name__ == "__main__":`` of multiprocessing.
 
     Args:
-        folder: Where the results go: summary.json, table.md and problems.csv.gz.
+        folder: Where the results go: summary.json, table.md, problems.csv.gz, and figures of each
+            row as PNG and SVG.
         table: A name in `TABLES`.
         problems: Number of problems in each row.
         settings: How it is measured.
@@ -86,7 +88,10 @@ def run_table(
         workers=workers,
         report=report,
     )
-    return write_report(results, trials, rows, settings.seconds)
+    summary = write_report(results, trials, rows, settings.seconds)
+    if any(trial.was_run for trial in trials):
+        write_figures(results.path)
+    return summary
 
 
 def _is_of(table: str, row: str, group: str | None) -> bool:

@@ -13,6 +13,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from planformer.bench.rows import Row
 from planformer.bench.statistics import (
@@ -49,10 +50,16 @@ def summarise(trials: Sequence[Trial], rows: Sequence[Row], limit: float) -> lis
     return lines
 
 
-def _measures(trials: Sequence[Trial], limit: float) -> dict[str, Any]:
+def counted_seconds(trials: Sequence[Trial], limit: float) -> NDArray[np.float64]:
+    """(N,) time of each trial in seconds; a failure's is at least the limit."""
     spent = np.array([trial.seconds for trial in trials])
     solved = np.array([trial.solved for trial in trials])
-    seconds = np.where(solved, spent, np.fmax(spent, limit))
+    return np.where(solved, spent, np.fmax(spent, limit))
+
+
+def _measures(trials: Sequence[Trial], limit: float) -> dict[str, Any]:
+    solved = np.array([trial.solved for trial in trials])
+    seconds = counted_seconds(trials, limit)
     vertices = np.array([float(trial.vertices) for trial in trials])
     ratio = np.array([trial.length / trial.reference_length for trial in trials])
     ratio[np.isnan(ratio)] = math.inf
