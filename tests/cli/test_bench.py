@@ -70,6 +70,13 @@ def test_a_table_is_measured_and_printed(cli, tmp_path):
     assert cli("bench", "plot", tmp_path).exit_code == 2
 
 
+def test_an_unknown_figure_is_an_error_with_the_choices(cli, tmp_path):
+    result = cli("bench", "figures", "--figures", "trees", "--output", tmp_path / "out")
+    assert result.exit_code == 2
+    assert "trees-forest" in result.output
+    assert not (tmp_path / "out").exists()
+
+
 def test_an_unknown_system_is_an_error_with_the_choices(cli, tmp_path):
     result = cli("bench", "table1", "--problems", "1", "--systems", "RRT", "--output", tmp_path)
     assert result.exit_code == 2

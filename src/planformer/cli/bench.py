@@ -212,6 +212,29 @@ def plot_command(
             stdout.print(str(file), soft_wrap=True)
 
 
+@bench_app.command("figures")
+def figures_command(
+    output: Annotated[Path, typer.Option(metavar="FOLDER", help="Folder of the pictures.")] = Path(
+        "bench_figures"
+    ),
+    figures: Annotated[
+        str | None, typer.Option(help="Figures, separated by commas. Default: all.")
+    ] = None,
+) -> None:
+    """Plan on fixed problems and draw the plans as the paper's figures do.
+
+    Search trees side by side, a prediction beside the truth, maps of several sizes, and a car
+    with the headings of its region. The plans are noted in figures.json.
+
+    Example: planformer bench figures --output figures
+    """
+    from planformer.bench.figures import write_plan_figures
+
+    names = None if figures is None else [name.strip() for name in figures.split(",")]
+    for file in write_plan_figures(output, names):
+        stdout.print(str(file), soft_wrap=True)
+
+
 @bench_app.command("pages")
 def pages_command(
     pages: Annotated[list[Path], typer.Argument(metavar="PAGE...", help="Markdown files.")],

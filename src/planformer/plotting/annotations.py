@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 from matplotlib.artist import Artist
+from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
@@ -102,10 +103,13 @@ def _handles(robot: Robot, result: PlanResult) -> list[Artist]:
 
 
 def _draw_colour_bar(layout: Layout) -> None:
-    figure = layout.figure
-    width, height = figure.get_size_inches()
+    width, height = layout.figure.get_size_inches()
     left, bottom = layout.at(-1.45, 0.35)
-    axes = figure.add_axes((left, bottom, 1.05 / width, 0.11 / height))
+    fill_colour_bar(layout.figure.add_axes((left, bottom, 1.05 / width, 0.11 / height)), 7.5)
+
+
+def fill_colour_bar(axes: Axes, text_size: float) -> None:
+    """Make axes a bar of the colours of probabilities, with text of some points beside it."""
     axes.imshow(
         np.linspace(0.0, 1.0, 256)[None],
         cmap=style.heat_colours(),
@@ -115,7 +119,7 @@ def _draw_colour_bar(layout: Layout) -> None:
     axes.set_facecolor(style.FLOOR)
     axes.set_axis_off()
     for x, text, side in ((-0.06, "probability  0", "right"), (1.06, "1", "left")):
-        axes.text(x, 0.42, text, size=7.5, color=style.MUTED, ha=side, va="center")
+        axes.text(x, 0.42, text, size=text_size, color=style.MUTED, ha=side, va="center")
 
 
 def _draw_scale_bar(layout: Layout) -> None:

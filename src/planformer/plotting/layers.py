@@ -1,4 +1,4 @@
-"""What lies on the map: the region's outline, the search tree, the path, start and goal."""
+"""The map and what lies on it: the region's outline, the search tree, the path, start and goal."""
 
 from __future__ import annotations
 
@@ -16,9 +16,10 @@ from planformer import _core
 from planformer.geometry import polyline_length
 from planformer.guidance import Region
 from planformer.maps import OccupancyGrid
-from planformer.planning import PlanResult, Tree
+from planformer.planning import Tree
 from planformer.plotting import style
-from planformer.plotting.raster import image_shape, resized
+from planformer.plotting.raster import image_shape, map_image, resized
+from planformer.plotting.view import View
 from planformer.robots import DubinsCar, Robot
 
 _OUTLINE_PIXELS = 1600
@@ -31,6 +32,20 @@ _DART = np.array([(1.0, 0.0), (-0.8, 0.72), (-0.42, 0.0), (-0.8, -0.72)])
 _CAR = np.array([(0.9, 0.0), (0.62, 0.42), (-0.9, 0.42), (-0.9, -0.42), (0.62, -0.42)])
 """Outline of a car inside its disc of radius 1, pointed at the front."""
 _CARS = 14
+
+
+def draw_map(axes: Axes, view: View, radius: float, region: Region | None, *, pixels: int) -> None:
+    """Draw the part of a map that a view shows; the arguments are those of `map_image`."""
+    x, y, yaw = view.grid.origin
+    image = axes.imshow(
+        map_image(view, radius, region, pixels=pixels),
+        origin="lower",
+        extent=view.extent,
+        interpolation="antialiased",
+        aspect="equal",
+        zorder=1,
+    )
+    image.set_transform(Affine2D().rotate(yaw).translate(x, y) + axes.transData)
 
 
 def draw_region(axes: Axes, grid: OccupancyGrid, region: Region) -> None:
@@ -91,11 +106,11 @@ def edge_lines(
     ]
 
 
-def draw_path(axes: Axes, robot: Robot, result: PlanResult) -> None:
-    """Draw the path with a halo and, for a car, some outlines of the car along it."""
+def draw_path(axes: Axes, robot: Robot, path: NDArray[np.float64]) -> None:
+    """Draw a path, (N, 2) or (N, 3), with a halo and, for a car, some outlines of it along it."""
     halo = patheffects.withStroke(linewidth=5.4, foreground=style.HALO, alpha=0.9)
     axes.plot(
-        *result.path[:, :2].T,
+        *path[:, :2].T,
         color=style.PATH,
         linewidth=2.5,
         solid_capstyle="round",
@@ -108,7 +123,7 @@ def draw_path(axes: Axes, robot: Robot, result: PlanResult) -> None:
         size = max(robot.radius, 0.009 * max(np.ptp(axes.get_xlim()), np.ptp(axes.get_ylim())))
         axes.add_collection(
             PolyCollection(
-                car_outlines(result.path, size),
+                car_outlines(path, size),
                 facecolors=style.HALO,
                 edgecolors=style.PATH,
                 linewidths=1.1,

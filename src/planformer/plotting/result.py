@@ -6,15 +6,13 @@ from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.transforms import Affine2D
 
 from planformer.maps import OccupancyGrid
 from planformer.planning import PlanResult
 from planformer.plotting.annotations import draw_annotations
-from planformer.plotting.layers import draw_ends, draw_path, draw_region, draw_tree
-from planformer.plotting.layout import DPI, Layout, make_layout
-from planformer.plotting.raster import map_image
-from planformer.plotting.view import View, make_view
+from planformer.plotting.layers import draw_ends, draw_map, draw_path, draw_region, draw_tree
+from planformer.plotting.layout import DPI, make_layout
+from planformer.plotting.view import make_view
 from planformer.robots import Robot
 
 
@@ -48,27 +46,14 @@ def plot_result(
     ends = [np.asarray(state, np.float64) for state in (start, goal)]
     view = make_view(grid, [state[:2] for state in ends])
     layout = make_layout(view)
-    _draw_map(layout, view, robot, result)
+    longer = layout.figure.get_size_inches().max() * DPI
+    draw_map(layout.axes, view, robot.radius, result.region, pixels=int(longer))
     if result.region is not None:
         draw_region(layout.axes, grid, result.region)
     if result.tree is not None:
         draw_tree(layout.axes, robot, result.tree)
     if result.solved:
-        draw_path(layout.axes, robot, result)
+        draw_path(layout.axes, robot, result.path)
     draw_ends(layout.axes, *ends)
     draw_annotations(layout, robot, result, title)
     return layout.figure
-
-
-def _draw_map(layout: Layout, view: View, robot: Robot, result: PlanResult) -> None:
-    x, y, yaw = view.grid.origin
-    longer = layout.figure.get_size_inches().max() * DPI
-    image = layout.axes.imshow(
-        map_image(view, robot.radius, result.region, pixels=int(longer)),
-        origin="lower",
-        extent=view.extent,
-        interpolation="antialiased",
-        aspect="equal",
-        zorder=1,
-    )
-    image.set_transform(Affine2D().rotate(yaw).translate(x, y) + layout.axes.transData)
