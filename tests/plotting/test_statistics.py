@@ -62,10 +62,17 @@ def test_curves_end_at_the_share_that_is_solved(systems):
     assert labels[:2] == ["RRT*  95.0%", "MPT-RRT*  0.0%"]
     for line, system in zip(axes.lines, systems, strict=True):
         shares = line.get_ydata()
-        assert shares[-1] == np.mean(system.solved & (system.seconds <= LIMIT))
+        assert shares[-1] == np.mean(system.solved)
         assert (np.diff(shares) >= 0).all()
         assert line.get_linestyle() == "--"
     assert axes.get_xlim()[1] == LIMIT
+
+
+def test_curves_reach_problems_that_took_longer_than_the_limit_with_their_proposal():
+    late = outcomes(seconds=(0.1, LIMIT + 0.5), vertices=(9, 9))
+    (axes,) = plot_solved([late], LIMIT, "").axes
+    assert axes.get_xlim()[1] == pytest.approx(LIMIT + 0.5)
+    assert axes.lines[0].get_ydata()[-1] == 1.0
 
 
 def test_a_problem_counts_from_its_time_on():

@@ -59,11 +59,12 @@ def plot_solved(systems: Sequence[Outcomes], limit: float, title: str) -> Figure
 
     Args:
         systems: The systems, in the order of the legend.
-        limit: Limit of a search in seconds, where the curves end.
+        limit: Limit of a search in seconds. The curves end there, or at the last problem that is
+            solved: a proposal takes time beside the search.
         title: Line above the plot.
 
     Returns:
-        A Matplotlib figure; the legend tells the shares at the limit. See `save_picture`.
+        A Matplotlib figure; the legend tells the shares at the end. See `save_picture`.
 
     Raises:
         InvalidResults: There is nothing to draw.
@@ -72,18 +73,18 @@ def plot_solved(systems: Sequence[Outcomes], limit: float, title: str) -> Figure
     figure = _figure(5.2, title)
     axes = figure.subplots()
     _decorate(axes, "deadline, proposal included [s]")
-    quickest = min(float(system.seconds.min()) for system in systems)
-    deadlines = np.geomspace(min(0.8 * quickest, 0.1 * limit), limit, _TIMES)
+    times = np.concatenate([system.seconds[system.solved] for system in systems] + [[limit]])
+    deadlines = np.geomspace(min(0.8 * times.min(), 0.1 * limit), times.max(), _TIMES)
     for system in systems:
         shares = shares_solved(system, deadlines)
         label = f"{system.name}  {shares[-1]:.1%}"
         axes.plot(deadlines, shares, color=system.colour, ls=system.dashes, lw=1.6, label=label)
-    axes.set_xlim(deadlines[0], limit)
+    axes.set_xlim(deadlines[0], deadlines[-1])
     axes.set_ylim(0.0, 1.01)
     axes.set_ylabel("problems solved", color=INK)
     axes.yaxis.set_major_formatter(PercentFormatter(1.0))
     figure.legend(
-        title=f"solved within {limit:g} s",
+        title="solved",
         loc="outside right center",
         frameon=False,
         fontsize=8.5,
