@@ -52,20 +52,6 @@ NumpyArray<double> find_car_path(const BlockedArray& blocked, double resolution,
     return to_numpy(poses);
 }
 
-NumpyArray<float> find_distances(const BlockedArray& blocked, std::int64_t row, std::int64_t col) {
-    const FreeSpace space = free_space_of(blocked, 1.0);
-    if (row < 0 || row >= space.height || col < 0 || col >= space.width) {
-        throw nb::index_error("the source cell lies outside the grid");
-    }
-    std::vector<float> distances(blocked.size());
-    {
-        const nb::gil_scoped_release unlocked;
-        wavefront(space.blocked, space.height, space.width, static_cast<int>(row),
-                  static_cast<int>(col), distances.data());
-    }
-    return to_numpy(std::move(distances), {blocked.shape(0), blocked.shape(1)});
-}
-
 using ValueArray = nb::ndarray<const float, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 using Cell = std::array<int, 2>;
 
@@ -75,6 +61,29 @@ int index_of(const FreeSpace& space, const Cell& cell) {
         throw nb::index_error("the cell lies outside the grid");
     }
     return row * space.width + col;
+}
+
+void require_inside(const FreeSpace& space, const Cell& cell) { index_of(space, cell); }
+
+/// (3, h, w): from the start, from the goal, excess.
+std::optional<NumpyArray<float>> find_detours(const BlockedArray& blocked, const Cell& start,
+                                              const Cell& goal, double limit, int side) {
+    const FreeSpace space = free_space_of(blocked, 1.0);
+    require_inside(space, start);
+    require_inside(space, goal);
+    require_positive("side", side);
+    std::optional<Detours> found;
+    {
+        const nb::gil_scoped_release unlocked;
+        found = detours(space, start, goal, limit, side);
+    }
+    if (!found) return std::nullopt;
+    std::vector<float> values = std::move(found->from_start);
+    for (const auto* part : {&found->from_goal, &found->excess}) {
+        values.insert(values.end(), part->begin(), part->end());
+    }
+    const auto size = [](int n) { return static_cast<std::size_t>(n); };
+    return to_numpy(std::move(values), {3, size(found->height), size(found->width)});
 }
 
 std::optional<float> find_widest_path(const BlockedArray& blocked, const ValueArray& values,
@@ -114,9 +123,13 @@ void register_grid_search(nb::module_& m) {
           nb::arg("max_expansions"),
           "Short path of a car between two poses by Hybrid-A*, (N, 3) float64 poses of the local\n"
           "frame, start and goal included; (0, 3) when none is found.");
-    m.def("wavefront", &find_distances, nb::arg("blocked"), nb::arg("row"), nb::arg("col"),
-          "Geodesic distance in cells from one cell to all, (h, w) float32, infinite where\n"
-          "unreachable; 8-connected, diagonal steps don't cut corners.");
+    m.def(
+        "detours", &find_detours, nb::arg("blocked"), nb::arg("start"), nb::arg("goal"),
+        nb::arg("limit"), nb::arg("side"),
+        "Least geodesic distance in cells from the start and from the goal (row, col), and least\n"
+        "detour, in each square of side x side cells: (3, h, w) float32; only cells count whose\n"
+        "detour is at most the limit, infinite where there are none. None when no way joins start\n"
+        "and goal.");
     m.def("widest_path", &find_widest_path, nb::arg("blocked"), nb::arg("values"), nb::arg("start"),
           nb::arg("goal"),
           "The largest value such that free cells of at least that value join two cells (row,\n"

@@ -110,9 +110,7 @@ public:
           car_(car),
           goal_(goal),
           cells_(space, kCellSide * car.radius),
-          to_goal_(static_cast<std::size_t>(space.height) * space.width) {
-        wavefront(space.blocked, space.height, space.width, grid_row(goal), grid_col(goal),
-                  to_goal_.data());
+          to_goal_(wavefront(space, grid_row(goal), grid_col(goal))) {
         open_pose({start, 0.0, Segment{}, kNone, cells_.best_at(start)});
     }
 

@@ -121,7 +121,13 @@ def hybrid_astar(
     goal: NDArray[np.float64],
     max_expansions: int,
 ) -> NDArray[np.float64]: ...
-def wavefront(blocked: NDArray[np.bool_], row: int, col: int) -> NDArray[np.float32]: ...
+def detours(
+    blocked: NDArray[np.bool_],
+    start: tuple[int, int],
+    goal: tuple[int, int],
+    limit: float,
+    side: int,
+) -> NDArray[np.float32] | None: ...
 def widest_path(
     blocked: NDArray[np.bool_],
     values: NDArray[np.float32],

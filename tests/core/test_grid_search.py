@@ -120,7 +120,7 @@ def test_the_length_lies_between_any_angle_optimum_and_steps_over_cells(find, pr
     to_centres = sum(
         math.dist(point, np.array(cell_of(point))[::-1] + 0.5) for point in (start, goal)
     )
-    over_cells = _core.wavefront(blocked, *cell_of(start))[cell_of(goal)] + to_centres
+    over_cells = grid_distances(blocked, cell_of(start))[cell_of(goal)] + to_centres
     length = polyline_length(path)
     assert any_angle_length(blocked, start, goal, length + 1e-6) <= length + 1e-9
     assert length <= over_cells * (1 + 1e-6) + 1e-9
@@ -222,30 +222,6 @@ def test_threads_do_not_disturb_each_other():
         together = list(pool.map(lambda pair: _core.lazy_theta(blocked, 0.05, *pair), pairs))
     for one, other in zip(alone, together, strict=True):
         np.testing.assert_array_equal(one, other)
-
-
-@settings(max_examples=200)
-@given(problems())
-def test_wavefront_equals_dijkstra_also_from_a_blocked_cell(problem):
-    blocked, start, _ = problem
-    source = cell_of(start)
-    distances = _core.wavefront(blocked, *source)
-    assert distances.dtype == np.float32
-    np.testing.assert_allclose(distances, grid_distances(blocked, source), rtol=1e-6)
-
-
-def test_wavefront_equals_dijkstra_on_a_large_maze():
-    blocked = generate_maze(4).occupied[::5, ::5]
-    source = tuple(int(i) for i in np.argwhere(~blocked)[100])
-    np.testing.assert_allclose(
-        _core.wavefront(blocked, *source), grid_distances(blocked, source), rtol=1e-6
-    )
-
-
-@pytest.mark.parametrize("source", [(-1, 0), (0, -1), (2, 0), (0, 3)])
-def test_a_wavefront_source_outside_the_grid_is_refused(source):
-    with pytest.raises(IndexError):
-        _core.wavefront(np.zeros((2, 3), bool), *source)
 
 
 @given(shape=st.tuples(st.integers(1, 12), st.integers(1, 12)), seed=st.integers(0, 2**32 - 1))

@@ -89,7 +89,7 @@ def test_wavefront_distances_are_symmetric():
 def test_disconnected_start_and_goal_still_encode():
     query = encode_query(_wall(), START, GOAL, _scale(QueryKind.WAVEFRONT))
     assert np.isfinite(query).all()
-    assert query[2, 60, 80] == pytest.approx(1.0)  # infinitely far
+    assert (query[2:4] == 1.0).all()  # infinitely far
     assert query[4].max() == 0.0
 
 

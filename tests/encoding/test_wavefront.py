@@ -5,18 +5,21 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from planformer.encoding.wavefront import relaxed_wavefront, wavefront
+from planformer.encoding.wavefront import detours, relaxed_detours
+from planformer.maps import generate_forest, generate_maze
 
 
 @st.composite
 def _grids(draw):
     shape = draw(st.tuples(st.integers(1, 12), st.integers(1, 12)))
     blocked = draw(arrays(bool, shape, elements=st.sampled_from([False, False, True])))
-    return blocked, tuple(draw(st.integers(0, size - 1)) for size in shape)
+    ends = (tuple(draw(st.integers(0, size - 1)) for size in shape) for _ in range(2))
+    limit = draw(st.sampled_from([0.0, 0.5, 2.0, 3.7, 1e3]))
+    return blocked, *ends, limit, draw(st.integers(1, 5))
 
 
 def _dijkstra(blocked, source):
@@ -46,12 +49,57 @@ def _dijkstra(blocked, source):
     return result
 
 
-@given(_grids())
-def test_numpy_equals_dijkstra(case):
-    assert np.allclose(relaxed_wavefront(*case), _dijkstra(*case), rtol=1e-6)
+def _expected(blocked, start, goal, limit, side):
+    """The definition, cell by cell."""
+    blocked = blocked.copy()
+    blocked[start] = blocked[goal] = False
+    from_start, from_goal = _dijkstra(blocked, start), _dijkstra(blocked, goal)
+    if math.isinf(from_start[goal]):
+        return None
+    squares = np.full((3, *(-(-size // side) for size in blocked.shape)), np.inf)
+    for row, col in np.ndindex(blocked.shape):
+        near, far = from_start[row, col], from_goal[row, col]
+        detour = max(near + far - from_start[goal], 0.0)
+        if detour <= limit + 1e-9:
+            square = squares[:, row // side, col // side]
+            np.minimum(square, (near, far, detour), out=square)
+    return squares
+
+
+def _assert_equal(actual, expected):
+    if expected is None:
+        assert actual is None
+    else:
+        assert actual.dtype == np.float32
+        np.testing.assert_allclose(actual, expected, rtol=1e-6, atol=1e-5)
 
 
 @given(_grids())
-def test_compiled_equals_numpy(case):
+def test_numpy_follows_the_definition(case):
+    _assert_equal(relaxed_detours(*case), _expected(*case))
+
+
+@settings(max_examples=300)
+@given(_grids())
+def test_the_compiled_search_follows_the_definition(case):
     pytest.importorskip("planformer._core", reason="the planning core is not built")
-    assert np.allclose(wavefront(*case), relaxed_wavefront(*case), rtol=1e-6)
+    _assert_equal(detours(*case), _expected(*case))
+
+
+@pytest.mark.parametrize("make", [generate_forest, generate_maze])
+@pytest.mark.parametrize("limit", [5.0, 60.0])
+def test_compiled_equals_numpy_on_whole_maps(make, limit):
+    pytest.importorskip("planformer._core", reason="the planning core is not built")
+    blocked = make(3, width=12.0, height=10.0).blocked(0.1)
+    rng = np.random.default_rng(0)
+    for start, goal in rng.choice(np.argwhere(~blocked), (5, 2)):
+        case = blocked, tuple(map(int, start)), tuple(map(int, goal)), limit, 5
+        _assert_equal(detours(*case), relaxed_detours(*case))
+
+
+@pytest.mark.parametrize("cell", [(-1, 0), (0, -1), (2, 0), (0, 3)])
+def test_a_cell_outside_the_grid_is_refused(cell):
+    pytest.importorskip("planformer._core", reason="the planning core is not built")
+    for ends in ((cell, (0, 0)), ((0, 0), cell)):
+        with pytest.raises(IndexError):
+            detours(np.zeros((2, 3), bool), *ends, 1.0, 1)

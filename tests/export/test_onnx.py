@@ -27,7 +27,7 @@ from planformer.models import (
     save_checkpoint,
 )
 
-COMPACT = CompactBody(width=24, stem=8, groups=1, blocks=1, heads=2)
+COMPACT = CompactBody(width=24, stem=8, blocks=1, heads=2)
 PAPER = TransformerBody(width=32, layers=1, key_width=16, value_width=16, feed_forward=32)
 
 

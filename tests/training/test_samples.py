@@ -100,7 +100,7 @@ def test_a_folder_is_a_data_set_or_holds_some(tmp_path):
 
 
 def test_maps_of_several_sizes_are_trained_on_together(tmp_path, two_sizes):
-    network = MPTConfig(CompactBody(width=24, stem=8, groups=1, blocks=1, heads=1, window=6))
+    network = MPTConfig(CompactBody(width=24, stem=8, blocks=1, heads=1, window=6))
     config = TrainConfig(steps=3, batch_size=4, workers=0, threads=1, validation_problems=6)
     result = train(network, config, two_sizes, tmp_path, validation=two_sizes)
     assert {kind: values["problems"] for kind, values in result.metrics.items()} == {

@@ -21,7 +21,7 @@ from planformer.training.samples import encode_examples
 from planformer.training.sources import load_example
 from planformer.training.validation import region_quality
 
-NETWORK = MPTConfig(CompactBody(width=24, stem=8, groups=1, blocks=1, heads=1, window=6))
+NETWORK = MPTConfig(CompactBody(width=24, stem=8, blocks=1, heads=1, window=6))
 PAPER = MPTConfig(
     TransformerBody(width=32, layers=1, key_width=16, value_width=16, feed_forward=32),
     QueryKind.SQUARE,

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from planformer.encoding.scale import NetworkScale, QueryKind
-from planformer.encoding.wavefront import wavefront
+from planformer.encoding.wavefront import detours
 from planformer.errors import InvalidParameter
 
 SQUARE_SIDE = 32
@@ -20,6 +20,9 @@ DISTANCE_SCALE = 10.0
 
 EXCESS_SCALE = 3.0
 """A detour of this many coarse cells more than the shortest dims a cell to 1/e."""
+
+DETOUR_LIMIT = 5.0
+"""Cells further out of the way than this, in metres, tell a network nothing."""
 
 
 def encode_query(
@@ -112,37 +115,35 @@ def _free_share(pixels: NDArray[np.uint8], side: int) -> NDArray[np.float64]:
 
 def _distance_channels(
     pixels: NDArray[np.uint8], states: tuple[NDArray[np.float64], ...], scale: NetworkScale
-) -> NDArray[np.float64]:
+) -> NDArray[np.float32]:
     """(3, h, w): how far from the start, how far from the goal, how small the detour.
 
-    The waves run at the map's full resolution: cells as coarse as the query's would close narrow
-    gaps or open thin walls, and the shortest way often leads through a narrow gap. A query pixel
-    has the least distances and the least detour of its pixels, each for itself: a wall may divide
-    them.
+    The distances are those of the map's full resolution: cells as coarse as the query's would close
+    narrow gaps or open thin walls, and the shortest way often leads through a narrow gap. Pixels too
+    far out of the way look as if they were infinitely far, which saves most of the search.
     """
-    blocked, side = pixels > 0, scale.query_stride
-    start, goal = (_cell(state, pixels.shape, scale.resolution) for state in states)
-    from_start = wavefront(blocked, start)
-    if not np.isfinite(from_start[goal]):
+    side = scale.query_stride
+    found = _detours(pixels > 0, states, scale.resolution, side)
+    if found is None:
         # Resampling has closed the way, or there is none: any free pixel opens a query pixel.
-        blocked, side = _free_share(pixels, side) == 0.0, 1
-        start, goal = (_cell(state, blocked.shape, scale.query_resolution) for state in states)
-        from_start = wavefront(blocked, start)
-    from_goal = wavefront(blocked, goal)
-    shortest = from_start[goal]
-    detour = from_start + from_goal - (shortest if np.isfinite(shortest) else 0.0)
-    detour = np.maximum(detour, 0.0)  # against rounding
-    near, far, excess = (_least(wave, side) / side for wave in (from_start, from_goal, detour))
+        coarse = _free_share(pixels, side) == 0.0
+        found = _detours(coarse, states, scale.query_resolution, 1)
+    if found is None:
+        found = np.full((3, *coarse.shape), np.inf, np.float32)
     reach = DISTANCE_SCALE / scale.query_resolution
-    return np.stack([np.tanh(near / reach), np.tanh(far / reach), np.exp(-excess / EXCESS_SCALE)])
+    return np.concatenate([np.tanh(found[:2] / reach), np.exp(-found[2:] / EXCESS_SCALE)])
 
 
-def _least(values: NDArray[np.float32], side: int) -> NDArray[np.float32]:
-    """The smallest value in each square of `side` pixels."""
-    height, width = values.shape
-    squares = values.reshape(height // side, side, width // side, side)
-    least: NDArray[np.float32] = squares.min(axis=1).min(axis=2)  # contiguous axes first: faster
-    return least
+def _detours(
+    blocked: NDArray[np.bool_],
+    states: tuple[NDArray[np.float64], ...],
+    resolution: float,
+    side: int,
+) -> NDArray[np.float32] | None:
+    """`detours` in query pixels, for squares of one query pixel."""
+    start, goal = (_cell(state, blocked.shape, resolution) for state in states)
+    found = detours(blocked, start, goal, DETOUR_LIMIT / resolution, side)
+    return None if found is None else found / np.float32(side)
 
 
 def _cell(state: NDArray[np.float64], shape: tuple[int, ...], resolution: float) -> tuple[int, int]:

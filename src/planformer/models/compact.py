@@ -1,9 +1,9 @@
 """A compact region proposal network that a CPU runs in milliseconds and trains in an hour.
 
-The map is packed into the channels of the query's coarser grid, two convolutions look at it and a
-strided one makes the tokens. Depthwise convolutions (as in ConvNeXt, Liu et al., CVPR 2022) then
-mix neighbouring tokens and a few attention blocks with rotary positions along both axes (Su et al.,
-RoFormer, 2021) mix the rest. Both depend on relative positions alone, so a network trained on one
+The map is packed into the channels of the query's coarser grid, and convolutions with strides make
+the tokens. Depthwise convolutions (as in ConvNeXt, Liu et al., CVPR 2022) then mix neighbouring
+tokens, and an attention block with rotary positions along both axes (Su et al., RoFormer, 2021), if
+there is one, mixes the rest. Both depend on relative positions alone, so a network trained on one
 map size serves others.
 """
 
@@ -22,7 +22,7 @@ _ROTARY_PERIODS = 100.0
 
 
 class CompactMPT(nn.Module):
-    """Stem, groups of convolution and attention blocks, a linear head.
+    """Stem, blocks, a linear head.
 
     Args:
         body: Sizes of the network.
@@ -34,14 +34,15 @@ class CompactMPT(nn.Module):
         side = scale.query_stride
         reduction = scale.stride // side
         self.pack = nn.PixelUnshuffle(side)
+        # Most of the time would go into convolutions at the query's own resolution.
         self.stem = nn.Sequential(
-            nn.Conv2d(side**2 + scale.query_channels, body.stem, 3, padding=1),
+            nn.Conv2d(side**2 + scale.query_channels, body.stem, 2, stride=2),
             nn.ReLU(),
             nn.Conv2d(body.stem, body.stem, 3, padding=1),
             nn.ReLU(),
-            nn.Conv2d(body.stem, body.width, reduction, stride=reduction),
+            nn.Conv2d(body.stem, body.width, reduction // 2, stride=reduction // 2),
         )
-        self.groups = nn.Sequential(*(_group(body) for _ in range(body.groups)))
+        self.blocks = nn.Sequential(*_blocks(body))
         self.norm = ChannelNorm(body.width)
         self.headings, self.offsets = scale.headings, scale.offsets
         self.head = nn.Conv2d(body.width, 1 + 2 * scale.headings + 2 * scale.offsets, 1)
@@ -57,7 +58,7 @@ class CompactMPT(nn.Module):
             The proposal, with the anchor of token (r, c) at pixel (20 r + 10, 20 c + 10).
         """
         tokens = self.stem(torch.cat([self.pack(occupancy), query], dim=1))
-        output = self.head(self.norm(self.groups(tokens)))
+        output = self.head(self.norm(self.blocks(tokens)))
         return Proposal(
             output[:, :1],
             heading=output[:, 1:3] if self.headings else None,
@@ -65,9 +66,11 @@ class CompactMPT(nn.Module):
         )
 
 
-def _group(body: CompactBody) -> nn.Sequential:
-    convolutions = (ConvolutionBlock(body) for _ in range(body.blocks))
-    return nn.Sequential(*convolutions, AttentionBlock(body))
+def _blocks(body: CompactBody) -> list[nn.Module]:
+    blocks: list[nn.Module] = [ConvolutionBlock(body) for _ in range(body.blocks)]
+    if body.heads:
+        blocks.insert((body.blocks + 1) // 2, AttentionBlock(body))
+    return blocks
 
 
 class ChannelNorm(nn.LayerNorm):

@@ -54,14 +54,13 @@ class TransformerBody:
 
 @dataclass(frozen=True)
 class CompactBody:
-    """A network for a CPU: convolutions mix neighbours, little attention mixes the rest.
+    """A network for a CPU: convolutions mix neighbours, and attention, if any, mixes the rest.
 
     Attributes:
         width: Dimension of a token.
-        stem: Channels before the tokens, at the query's resolution.
-        groups: Groups of convolution blocks, each closed by an attention block.
-        blocks: Convolution blocks in a group.
-        heads: Attention heads.
+        stem: Channels before the tokens, at half the query's resolution.
+        blocks: Convolution blocks.
+        heads: Attention heads of one block in the middle; 0 for none.
         expansion: Hidden width of an MLP over `width`.
         window: Side in tokens of the windows that attention is confined to. A map of this size is
             one window; beyond it the cost grows with the area, not with its square.
@@ -71,16 +70,17 @@ class CompactBody:
     """
 
     width: int = 96
-    stem: int = 48
-    groups: int = 2
-    blocks: int = 4
-    heads: int = 3
-    expansion: int = 3
+    stem: int = 32
+    blocks: int = 6
+    heads: int = 0
+    expansion: int = 2
     window: int = 24
 
     def __post_init__(self) -> None:
-        _require_positive(self, "width stem groups blocks heads expansion window")
-        if self.width % (4 * self.heads):
+        _require_positive(self, "width stem blocks expansion window")
+        if self.heads < 0:
+            raise InvalidParameter(f"heads must be >= 0; got {self.heads}")
+        if self.heads and self.width % (4 * self.heads):
             raise InvalidParameter(
                 "width must be a multiple of 4 * heads, for rotary positions along two axes; got "
                 f"{self.width} for {self.heads} heads"
@@ -216,8 +216,8 @@ PRESETS: dict[str, MPTConfig] = {
     "paper-small-fixed-encoding": MPTConfig(
         replace(_PAPER_SMALL, shift_positions=False), QueryKind.SQUARE
     ),
-    "small": MPTConfig(),
-    "tiny": MPTConfig(CompactBody(width=48, stem=24, blocks=2, expansion=2)),
+    "small": MPTConfig(CompactBody(width=64, stem=24, blocks=5)),
+    "tiny": MPTConfig(CompactBody(width=32, stem=16, blocks=3)),
     "unet": MPTConfig(UNetBody(), QueryKind.SQUARE),
     "unet-small": MPTConfig(UNetBody((16, 32, 64, 128, 128)), QueryKind.SQUARE),
     "dubins": MPTConfig(headings=True, offsets=True),
