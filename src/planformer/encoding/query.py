@@ -47,7 +47,7 @@ def encode_query(
         return _square_query(pixels.shape, states, scale)
     markers = np.stack([_marker(pixels.shape, state, scale) for state in states])
     free = _free_share(pixels, scale.query_stride)
-    channels = [markers, free[None]]
+    channels: list[NDArray[np.floating]] = [markers, free[None]]
     if scale.query is QueryKind.WAVEFRONT:
         channels.insert(1, _distance_channels(pixels, states, scale))
     if scale.headings:
@@ -108,8 +108,10 @@ def _marker(
 def _free_share(pixels: NDArray[np.uint8], side: int) -> NDArray[np.float64]:
     """(h, w) share of free pixels in each square of `side` pixels."""
     height, width = pixels.shape
-    squares = pixels.reshape(height // side, side, width // side, side)
-    free: NDArray[np.float64] = 1.0 - squares.mean(axis=(1, 3))
+    # Rows first, as integers: many times as fast as a mean over both axes.
+    rows = pixels.reshape(height // side, side, width).sum(axis=1, dtype=np.int32)
+    blocked = rows.reshape(height // side, width // side, side).sum(axis=2)
+    free: NDArray[np.float64] = 1.0 - blocked / side**2
     return free
 
 
@@ -119,8 +121,8 @@ def _distance_channels(
     """(3, h, w): how far from the start, how far from the goal, how small the detour.
 
     The distances are those of the map's full resolution: cells as coarse as the query's would close
-    narrow gaps or open thin walls, and the shortest way often leads through a narrow gap. Pixels too
-    far out of the way look as if they were infinitely far, which saves most of the search.
+    narrow gaps or open thin walls, and the shortest way often leads through a narrow gap. Pixels
+    too far out of the way look as if they were infinitely far, which saves much of the search.
     """
     side = scale.query_stride
     found = _detours(pixels > 0, states, scale.resolution, side)

@@ -70,7 +70,7 @@ def _least(values: NDArray[np.float64], side: int) -> NDArray[np.float32]:
 
 
 def _relaxed_wavefront(blocked: NDArray[np.bool_], cell: Cell) -> NDArray[np.float64]:
-    """(H, W) distances from a cell: relax all steps out of the cells that changed until none does."""
+    """(H, W) distances from a cell: relax steps out of the cells that changed until none does."""
     height, width = blocked.shape
     stride = width + 2
     free = np.zeros((height + 2, stride), bool)
