@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 import zlib
 
 import numpy as np
@@ -11,6 +12,7 @@ from planformer.bench.problems import PROBLEMS_PER_MAP, make_problem
 from planformer.bench.rows import MapFile, Row, Scene, all_rows
 from planformer.errors import InvalidParameter
 from planformer.geometry import polyline_length
+from planformer.maps import load_scenarios
 
 
 def test_a_problem_depends_on_row_number_and_seed_alone(small_row):
@@ -83,3 +85,24 @@ def test_a_row_without_room_says_so(tmp_path):
     row = Row("full", (Scene("", MapFile(path, 0.05), pf.PointRobot()),))
     with pytest.raises(InvalidParameter, match="attempts gave no problem 0 of the row full"):
         make_problem(row, 0, seed=0)
+
+
+def test_scenarios_are_problems_of_the_file(real_maps):
+    row = all_rows(real_maps)["scenarios-32room_000"]
+    (scene,) = row.scenes
+    grid = scene.maps.grid(0)
+    ends = {s.start_and_goal(grid) for s in load_scenarios(scene.scenarios)}
+    drawn = [make_problem(row, index, seed=0).problem for index in range(5)]
+    assert len({(p.start, p.goal) for p in drawn}) == 5
+    for problem in drawn:
+        assert (problem.start, problem.goal) in ends
+        assert math.dist(problem.start, problem.goal) >= row.min_distance
+
+
+def test_too_few_scenarios_are_refused(real_maps, tmp_path):
+    row = all_rows(real_maps)["scenarios-32room_000"]
+    file = tmp_path / "few.scen"
+    file.write_text("\n".join(row.scenes[0].scenarios.read_text().splitlines()[:3]))
+    few = dataclasses.replace(row, scenes=(dataclasses.replace(row.scenes[0], scenarios=file),))
+    with pytest.raises(InvalidParameter, match="gave no problem"):
+        make_problem(few, 0, seed=0)

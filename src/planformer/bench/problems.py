@@ -7,8 +7,9 @@ seed of the data set (`planformer.data.generate`). Problem maps here draw from `
 
 from __future__ import annotations
 
+import math
 import zlib
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import islice
@@ -17,11 +18,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planformer.bench.reference import reference_path
-from planformer.bench.rows import Row
+from planformer.bench.rows import Row, Scene
 from planformer.data.problems import random_problems
-from planformer.errors import InvalidParameter
+from planformer.errors import InvalidParameter, InvalidProblem
 from planformer.geometry import polyline_length
-from planformer.planning import Problem
+from planformer.maps import OccupancyGrid, load_scenarios
+from planformer.planning import Problem, is_connected
 
 PROBLEMS_PER_MAP = 4
 EVALUATION_ENTROPY = 2**32
@@ -119,13 +121,36 @@ def _problems_on_map(
     rng = np.random.default_rng(problem_seed)
     seeds = rng.integers(1, 2**32, size=PROBLEMS_PER_MAP).tolist()
     try:
-        problems = random_problems(
-            scene.maps.grid(map_seed),
-            scene.robot,
-            min_distance=row.min_distance,
-            max_distance=row.max_distance,
-            rng=rng,
-        )
-        return list(islice(problems, PROBLEMS_PER_MAP)), seeds
+        grid = scene.maps.grid(map_seed)
+        problems = list(islice(_problems(row, scene, grid, rng), PROBLEMS_PER_MAP))
     except InvalidParameter:  # the generator failed, or the map has no room
         return [], seeds
+    return problems if len(problems) == PROBLEMS_PER_MAP else [], seeds
+
+
+def _problems(
+    row: Row, scene: Scene, grid: OccupancyGrid, rng: np.random.Generator
+) -> Iterator[Problem]:
+    distances = row.min_distance, row.max_distance or math.inf
+    if scene.scenarios is not None:
+        return _from_scenarios(scene, grid, distances, rng)
+    return random_problems(
+        grid, scene.robot, min_distance=distances[0], max_distance=row.max_distance, rng=rng
+    )
+
+
+def _from_scenarios(
+    scene: Scene, grid: OccupancyGrid, distances: tuple[float, float], rng: np.random.Generator
+) -> Iterator[Problem]:
+    """A file's problems in random order, but those that the robot's size makes impossible."""
+    assert scene.scenarios is not None
+    for scenario in rng.permutation(np.array(load_scenarios(scene.scenarios), dtype=object)):
+        start, goal = scenario.start_and_goal(grid)
+        if not distances[0] <= math.dist(start, goal) <= distances[1]:
+            continue
+        try:
+            problem = Problem(grid, scene.robot, start, goal)
+        except InvalidProblem:
+            continue
+        if is_connected(~problem.blocked, problem):
+            yield problem

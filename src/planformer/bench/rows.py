@@ -16,6 +16,8 @@ from planformer.robots import DubinsCar, PointRobot, Robot
 
 REAL = "real"
 """Group of the rows on real maps."""
+SCENARIOS = "scenarios"
+"""Group of the rows with the problems of MovingAI's scenario files."""
 
 _RESOLUTION = 0.05
 _POINT = PointRobot(radius=0.1)
@@ -84,11 +86,13 @@ class Scene:
         name: What tells it from the other scenes of its row.
         maps: Where the maps come from.
         robot: The robot.
+        scenarios: MovingAI .scen file that holds the problems; None draws random ones.
     """
 
     name: str
     maps: MapSource
     robot: Robot
+    scenarios: Path | None = None
 
 
 @dataclass(frozen=True)
@@ -125,7 +129,9 @@ def all_rows(real_maps: Path | None = None) -> dict[str, Row]:
     Raises:
         InvalidParameter: The folder lacks a map.
     """
-    rows = _generated_rows() + (() if real_maps is None else _real_rows(real_maps))
+    rows = _generated_rows()
+    if real_maps is not None:
+        rows += (*_real_rows(real_maps), *_scenario_rows(real_maps))
     return {row.name: row for row in rows}
 
 
@@ -192,7 +198,8 @@ _REAL_MAPS = {
 
 def _real_rows(folder: Path) -> tuple[Row, ...]:
     """Maps of robots (Nav2, MRPB) and of the MovingAI benchmark."""
-    missing = [name for name in _REAL_MAPS if not (folder / name).is_file()]
+    needed = [*_REAL_MAPS, *(f"{name}.scen" for name in _REAL_MAPS if name.endswith(".map"))]
+    missing = [name for name in needed if not (folder / name).is_file()]
     if missing:
         raise InvalidParameter(f"{folder} lacks the maps {', '.join(missing)}")
     return tuple(
@@ -202,6 +209,20 @@ def _real_rows(folder: Path) -> tuple[Row, ...]:
             group=REAL,
         )
         for name, (resolutions, radii) in _REAL_MAPS.items()
+    )
+
+
+def _scenario_rows(folder: Path) -> tuple[Row, ...]:
+    """Problems that others search the same maps for; the robot fits through any free cell."""
+    robot = PointRobot(radius=0.04)
+    maps = [(folder / name).resolve() for name in _REAL_MAPS if name.endswith(".map")]
+    return tuple(
+        Row(
+            f"scenarios-{path.stem}",
+            (Scene("", MapFile(path, 0.1), robot, path.with_name(f"{path.name}.scen")),),
+            group=SCENARIOS,
+        )
+        for path in maps
     )
 
 

@@ -114,7 +114,7 @@ _TABLES = {
     "table2": "Planners of a point robot in mazes of 480 x 480 pixels: the paper's table II.",
     "table3": "Planners of a point robot in forests of four sizes: the paper's table III.",
     "table4": "Planners of a Dubins car in forests of 480 x 480 pixels: the paper's table IV.",
-    "table5": "Planners of a point robot on real maps.",
+    "table5": "Planners of a point robot on real maps, and on MovingAI scenarios.",
 }
 
 

@@ -12,7 +12,7 @@ from typing import Any
 import planformer
 from planformer.bench.environment import machine
 from planformer.bench.guides import fingerprints
-from planformer.bench.rows import REAL, all_rows
+from planformer.bench.rows import REAL, SCENARIOS, all_rows
 from planformer.bench.running import Progress, complete
 from planformer.bench.store import ResultFolder
 from planformer.bench.tables.figures import write_figures
@@ -29,10 +29,10 @@ TABLES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "table2": ("maze-480",),
         "table3": ("forest-360x240", "forest-480x240", "forest-560", "forest-780"),
         "table4": ("dubins-forest-480",),
-        "table5": (),  # the real maps, whose rows come with their folder
+        "table5": (),  # real maps and scenarios, whose rows come with their folder
     }
 )
-"""The rows of each table: the paper's four, and real maps."""
+"""The rows of each table: the paper's four, and real maps with problems of two kinds."""
 
 
 def run_table(
@@ -97,7 +97,7 @@ def run_table(
 def _is_of(table: str, row: str, group: str | None) -> bool:
     if table not in TABLES:
         raise InvalidParameter(f"unknown table {table!r}; choose from {', '.join(TABLES)}")
-    return group == REAL if table == "table5" else row in TABLES[table]
+    return group in (REAL, SCENARIOS) if table == "table5" else row in TABLES[table]
 
 
 def _manifest(table: str, settings: TableSettings, workers: int) -> dict[str, Any]:
