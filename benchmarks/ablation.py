@@ -57,8 +57,7 @@ def variants(steps: int, teacher: Path | None) -> dict[str, Variant]:
     known = {
         "baseline": Variant(),
         "markers_query": Variant(replace(TINY, query=QueryKind.MARKERS)),
-        "no_attention": Variant(replace(TINY, body=replace(BODY, window=1))),
-        "one_attention_block": Variant(replace(TINY, body=replace(BODY, groups=1, blocks=4))),
+        "attention": Variant(replace(TINY, body=replace(BODY, heads=2))),
         "width_96": Variant(replace(TINY, body=replace(BODY, width=96))),
         "no_augmentation": Variant(changes={"augment": False}),
         "positive_weight_1": Variant(changes={"positive_weight": 1.0}),
