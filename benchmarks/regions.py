@@ -72,6 +72,7 @@ def measure(problem: Problem, proposer: OnnxProposer, seed: int) -> list[dict[st
     seconds = time.perf_counter() - started
     cells = spread(proposal.probability, problem.grid, proposer.network.scale)
     connecting = connecting_threshold(cells, problem)
+    assert connecting is not None  # the problems can be solved
     best = shortest_length(problem, problem.blocked)
     limits = SearchLimits(seconds=3.0, target_length=SLACK * best)
     rows = []

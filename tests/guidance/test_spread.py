@@ -11,7 +11,7 @@ import planformer as pf
 from planformer.encoding import NetworkScale, anchor_points, region_mask
 from planformer.errors import InvalidParameter
 from planformer.guidance import make_region
-from planformer.guidance.region import PAPER_THRESHOLD, connecting_threshold, spread
+from planformer.guidance.region import connecting_threshold, spread
 from planformer.planning import Problem, is_connected
 
 SCALES = st.builds(
@@ -90,7 +90,7 @@ def test_the_connecting_threshold_is_the_highest_that_connects(scale, rows, cols
         for level in np.unique(cells[cells >= 0])
         if is_connected((cells >= level) & grid.free, problem)
     ]
-    expected = max(connecting, default=PAPER_THRESHOLD)
+    expected = max(connecting, default=None)
     assert connecting_threshold(cells, problem) == expected
 
 

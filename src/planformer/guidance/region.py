@@ -122,15 +122,20 @@ def make_region(
     local = anchor_points(height * scale.stride, width * scale.stride, scale)
     cells = spread(probability, problem.grid, scale)
     if threshold is None:
-        threshold = connecting_threshold(cells, problem) * RELAXATION
-    mask = cells >= threshold
+        widest = connecting_threshold(cells, problem)
+        connected = widest is not None
+        threshold = RELAXATION * (PAPER_THRESHOLD if widest is None else widest)
+        mask = cells >= threshold
+    else:
+        mask = cells >= threshold
+        connected = is_connected(mask & ~problem.blocked, problem)
     frame = problem.grid.frame
     return Region(
         probability=probability,
         anchors=frame.to_world(local),
         threshold=threshold,
         mask=mask,
-        connected=is_connected(mask & ~problem.blocked, problem),
+        connected=connected,
         patch=scale.patch * scale.resolution,
         headings=None if headings is None else headings + frame.yaw,
         cell_area=problem.grid.resolution**2,
@@ -177,28 +182,37 @@ def spread(
     Returns:
         (H, W) float32; cells in no patch are -1.
     """
-    rows = _spread_axis(probability, grid.shape[0], grid.resolution, scale)
-    return np.ascontiguousarray(_spread_axis(rows.T, grid.shape[1], grid.resolution, scale).T)
+    rows = _spread_axis(probability, 0, grid, scale)
+    return _spread_axis(rows, 1, grid, scale)
 
 
 def _spread_axis(
-    values: NDArray[np.float32], cells: int, resolution: float, scale: NetworkScale
+    values: NDArray[np.float32], axis: int, grid: OccupancyGrid, scale: NetworkScale
 ) -> NDArray[np.float32]:
-    """`spread` along axis 0: (h, n) to (cells, n)."""
-    pixels = (np.arange(cells) + 0.5) * resolution / scale.resolution
+    """`spread` along one axis alone."""
+    count = values.shape[axis]
+    pixels = (np.arange(grid.shape[axis]) + 0.5) * grid.resolution / scale.resolution
     # Patches are half-open, as in `region_mask`: from `patch // 2` before the anchor.
     offset = pixels - scale.anchor_offset + scale.patch // 2
     first = np.floor((offset - scale.patch) / scale.stride).astype(np.int64) + 1
     last = np.floor(offset / scale.stride).astype(np.int64)
-    result = np.full((cells, values.shape[1]), -1.0, np.float32)
-    for token in range(int((last - first).max()) + 1):
-        index = first + token
-        covered = (index <= last) & (index >= 0) & (index < len(values))
-        result[covered] = np.maximum(result[covered], values[index[covered]])
+    beyond = [(0, int(axis == 0)), (0, int(axis == 1))]
+    padded = np.pad(values, beyond, constant_values=-1.0)  # its last place stands for no token
+    index = first
+    result = padded.take(np.where(_covers(index, last, count), index, count), axis=axis)
+    for _ in range(int((last - first).max())):
+        index = index + 1
+        part = padded.take(np.where(_covers(index, last, count), index, count), axis=axis)
+        np.maximum(result, part, out=result)
     return result
 
 
-def connecting_threshold(cells: NDArray[np.float32], problem: Problem) -> float:
+def _covers(token: NDArray[np.int64], last: NDArray[np.int64], count: int) -> NDArray[np.bool_]:
+    """Whether a pixel's token exists and its patch reaches the pixel."""
+    return (token <= last) & (token >= 0) & (token < count)
+
+
+def connecting_threshold(cells: NDArray[np.float32], problem: Problem) -> float | None:
     """The highest threshold at which start and goal are connected in region and free space.
 
     Args:
@@ -206,8 +220,8 @@ def connecting_threshold(cells: NDArray[np.float32], problem: Problem) -> float:
         problem: The problem.
 
     Returns:
-        The threshold, or the paper's 0.5 where free space itself is disconnected.
+        The threshold, or None where no region connects them: the map itself does not, or only
+        through cells in no patch.
     """
     start, goal = problem.grid.to_rc([problem.start[:2], problem.goal[:2]]).tolist()
-    widest = _core.widest_path(problem.blocked, cells, start, goal)
-    return PAPER_THRESHOLD if widest is None else widest
+    return _core.widest_path(problem.blocked, cells, start, goal)
