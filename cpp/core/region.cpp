@@ -42,7 +42,7 @@ Pose sample_shape(const Region& region, std::size_t index, ompl::RNG& rng) {
     const auto& [dx, dy] = region.offsets[index];
     const Pose& anchor = region.anchors[index];
     const Pose centre{anchor.x + dx, anchor.y + dy, anchor.yaw};
-    if (!region.has_heading) return sample_square(centre, region.half_width, rng);
+    if (!region.has_heading) return sample_square(centre, region.minor_axis, rng);
     return sample_ellipse(region, centre, region.yaw_deviations[index], rng);
 }
 

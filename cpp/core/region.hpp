@@ -15,11 +15,11 @@ namespace planformer {
 
 /// A proposed part of the state space: shapes of one size round anchor points, in the local frame.
 ///
-/// Without headings the shape is a square of side 2 * half_width, and a car's yaw is uniform. With
+/// Without headings the shape is a square of side 2 * minor_axis, and a car's yaw is uniform. With
 /// headings it is an ellipse with semi-axes (half_width, minor_axis) turned along the heading, and
 /// the yaw is Gaussian round it (Motion Planning Transformers, section III.B), as widely as the
-/// proposal is unsure of it. A shape may lie beside its anchor; what of it leaves the squares of
-/// all anchors is cut off.
+/// proposal is unsure of it. A shape may lie beside its anchor; what of it leaves the anchors'
+/// squares of side 2 * half_width is cut off.
 struct Region {
     struct Offset {
         double x = 0.0;  ///< [m]

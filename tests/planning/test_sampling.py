@@ -30,12 +30,15 @@ def region_of(anchors, headings=None, half_width=0.4):
 
 def draw(anchors, headings, half_width, count, seed=1, offsets=None):
     poses = np.column_stack((anchors, np.zeros(len(anchors)) if headings is None else headings))
+    offsets = None if offsets is None else np.asarray(offsets, float)
     region = _core.Region(
         poses,
-        np.zeros((len(poses), 2)) if offsets is None else np.asarray(offsets, float),
+        np.zeros((len(poses), 2)) if offsets is None else offsets,
         has_heading=headings is not None,
         half_width=half_width,
-        minor_axis=ELLIPSE_ASPECT * half_width,
+        minor_axis=SamplingRegion(
+            poses[:, :2], headings, half_width, area=1.0, offsets=offsets
+        ).minor_axis,
         yaw_deviations=np.full(len(poses), YAW_DEVIATION),
         area=1.0,
     )

@@ -216,8 +216,8 @@ PRESETS: dict[str, MPTConfig] = {
     "paper-small-fixed-encoding": MPTConfig(
         replace(_PAPER_SMALL, shift_positions=False), QueryKind.SQUARE
     ),
-    "small": MPTConfig(CompactBody(width=64, stem=24, blocks=5)),
-    "tiny": MPTConfig(CompactBody(width=32, stem=16, blocks=3)),
+    "small": MPTConfig(CompactBody(width=64, stem=24, blocks=5), offsets=True),
+    "tiny": MPTConfig(CompactBody(width=32, stem=16, blocks=3), offsets=True),
     "unet": MPTConfig(UNetBody(), QueryKind.SQUARE),
     "unet-small": MPTConfig(UNetBody((16, 32, 64, 128, 128)), QueryKind.SQUARE),
     "dubins": MPTConfig(headings=True, offsets=True),

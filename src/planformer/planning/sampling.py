@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from planformer.errors import InvalidParameter
 
 ELLIPSE_ASPECT = 0.5
-"""Minor over major axis of the ellipses that a car's positions are drawn from."""
+"""Minor over major axis of the ellipses that a car's positions are drawn from. Squares that have an
+offset from their anchors are narrower by as much: they lie round a path, not round a lattice."""
 YAW_DEVIATION = 0.35
 """Standard deviation [rad] of a car's yaw round a heading of unknown certainty."""
 
@@ -21,12 +22,13 @@ class SamplingRegion:
 
     Without headings the shapes are squares and a car's yaw is uniform; with headings they are
     ellipses along them (Motion Planning Transformers, section III.B). Shapes with an offset from
-    their anchors are cut off where the anchors' squares end.
+    their anchors are cut off where the anchors' squares end; squares then have half the side.
 
     Attributes:
         anchors: (K, 2) float64 anchor points in metres, K >= 1.
         headings: (K,) float64 predicted headings in rad, or None.
-        half_width: Half the side of a square, or the major semi-axis of an ellipse, in metres.
+        half_width: Half the side of the anchors' squares, also the major semi-axis of an ellipse, in
+            metres.
         area: Area of the union of the shapes in square metres.
         yaw_deviations: (K,) float64 standard deviation of the yaw round each heading in rad, > 0;
             None for 0.35 rad everywhere.
@@ -43,6 +45,12 @@ class SamplingRegion:
     area: float
     yaw_deviations: NDArray[np.float64] | None = None
     offsets: NDArray[np.float64] | None = None
+
+    @property
+    def minor_axis(self) -> float:
+        """Minor semi-axis of an ellipse, or half the side of a square to draw from, in metres."""
+        is_lattice = self.headings is None and self.offsets is None
+        return self.half_width if is_lattice else ELLIPSE_ASPECT * self.half_width
 
     def __post_init__(self) -> None:
         if self.anchors.ndim != 2 or self.anchors.shape[1] != 2 or len(self.anchors) == 0:

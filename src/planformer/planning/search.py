@@ -16,7 +16,7 @@ from planformer.errors import InvalidParameter, UnknownPlanner
 from planformer.geometry import Frame, wrap_angle
 from planformer.planning.problem import Problem, State
 from planformer.planning.result import PlanResult, PlanStatus, Tree
-from planformer.planning.sampling import ELLIPSE_ASPECT, YAW_DEVIATION, SamplingRegion
+from planformer.planning.sampling import YAW_DEVIATION, SamplingRegion
 from planformer.planning.validity import path_is_valid
 from planformer.robots import DubinsCar, Robot
 
@@ -168,7 +168,7 @@ def _core_region(region: SamplingRegion, problem: Problem) -> _core.Region:
         else Frame(yaw=problem.grid.frame.yaw).to_local(region.offsets),
         has_heading=region.headings is not None,
         half_width=region.half_width,
-        minor_axis=ELLIPSE_ASPECT * region.half_width,
+        minor_axis=region.minor_axis,
         yaw_deviations=(
             np.full(len(headings), YAW_DEVIATION)
             if region.yaw_deviations is None
