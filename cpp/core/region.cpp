@@ -15,6 +15,8 @@ namespace {
 
 /// Draws that miss the map or the region are repeated this often before a place inside is taken.
 constexpr int kMaxRedraws = 100;
+/// Share of the samples round the ends.
+constexpr double kEndShare = 0.15;
 /// What rounding may put outside of a square [m].
 constexpr double kRounding = 1e-9;
 
@@ -81,6 +83,10 @@ Pose read_state(const ob::StateSpace& space, const ob::State* state) {
 }
 
 Pose sample_region(const Region& region, ompl::RNG& rng) {
+    if (!region.ends.empty() && rng.uniform01() < kEndShare) {
+        const int end = rng.uniformInt(0, static_cast<int>(region.ends.size()) - 1);
+        return sample_square(region.ends[static_cast<std::size_t>(end)], region.half_width, rng);
+    }
     const int last = static_cast<int>(region.anchors.size()) - 1;
     const auto index = static_cast<std::size_t>(rng.uniformInt(0, last));
     Pose pose = sample_shape(region, index, rng);

@@ -20,6 +20,9 @@ namespace planformer {
 /// the yaw is Gaussian round it (Motion Planning Transformers, section III.B), as widely as the
 /// proposal is unsure of it. A shape may lie beside its anchor; what of it leaves the anchors'
 /// squares of side 2 * half_width is cut off.
+///
+/// Some samples come from squares of side 2 * half_width round the `ends`, with any yaw: where a
+/// car starts or arrives it often has to turn about, and one heading an anchor cannot tell how.
 struct Region {
     struct Offset {
         double x = 0.0;  ///< [m]
@@ -32,6 +35,7 @@ struct Region {
     double half_width = 0.0;             ///< [m]
     double minor_axis = 0.0;             ///< [m]
     std::vector<double> yaw_deviations;  ///< standard deviation of each anchor's yaw [rad]
+    std::vector<Pose> ends;              ///< start and goal, or nothing
     double area = 0.0;                   ///< [m^2] of the union of the shapes
 };
 

@@ -58,6 +58,7 @@ class Region:
         half_width: float,
         minor_axis: float,
         yaw_deviations: NDArray[np.float64],  # (N,) [rad]
+        ends: NDArray[np.float64],  # (M, 3)
         area: float,
     ) -> None: ...
     def sample(self, count: int, seed: int) -> NDArray[np.float64]: ...  # (count, 3)

@@ -161,6 +161,7 @@ def _model(robot: Robot) -> tuple[_core.RobotKind, float, bool, float, float]:
 def _core_region(region: SamplingRegion, problem: Problem) -> _core.Region:
     headings = np.zeros(len(region.anchors)) if region.headings is None else region.headings
     poses = problem.grid.frame.to_local(np.column_stack((region.anchors, headings)))
+    ends = np.stack((problem.local_start, problem.local_goal))
     return _core.Region(
         np.ascontiguousarray(poses),
         np.zeros_like(region.anchors)
@@ -174,6 +175,7 @@ def _core_region(region: SamplingRegion, problem: Problem) -> _core.Region:
             if region.yaw_deviations is None
             else region.yaw_deviations
         ),
+        ends=ends if region.headings is not None else np.empty((0, 3)),
         area=region.area,
     )
 
