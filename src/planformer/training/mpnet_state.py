@@ -1,0 +1,138 @@
+"""All that a training of MPNet needs to go on exactly where it stopped."""
+
+from __future__ import annotations
+
+import csv
+import io
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import torch
+from torch import optim
+
+from planformer.errors import InvalidWeights, WeightsMismatch
+from planformer.files import whole_file
+from planformer.models.mpnet import MPNet
+from planformer.models.mpnet_storage import load_mpnet, save_mpnet
+from planformer.training.mpnet_config import MPNetOptimizer, MPNetTrainConfig
+
+CHECKPOINT, LOG = "checkpoint.pt", "log.csv"
+
+_MAY_CHANGE = {
+    "bfloat16",
+    "checkpoint_seconds",
+    "device",
+    "seconds",
+    "steps",
+    "threads",
+    "validate_every",
+    "validation_maps",
+}
+"""Settings that may be others when a training goes on: they do not say what it learns."""
+
+
+@dataclass
+class MPNetState:
+    """A network in training.
+
+    Attributes:
+        model: The network.
+        optimizer: Its optimiser.
+        data: Settings of the data set, for the weights' card.
+        step: Optimiser steps taken.
+        seconds: Time spent, over all resumptions.
+        history: One row for each validation.
+    """
+
+    model: MPNet
+    optimizer: optim.Optimizer
+    data: dict[str, Any]
+    step: int = 0
+    seconds: float = 0.0
+    history: list[dict[str, float]] = field(default_factory=list)
+
+    def record(self, **measured: float) -> None:
+        """Add a validation to the history."""
+        self.history.append({"step": self.step, "seconds": round(self.seconds, 1), **measured})
+
+    def save(self, folder: Path, config: MPNetTrainConfig) -> None:
+        """Write checkpoint and log; each file is replaced as a whole."""
+        save_mpnet(
+            folder / CHECKPOINT,
+            self.model,
+            optimizer=self.optimizer.state_dict(),
+            training=config.to_dict(),
+            data=self.data,
+            step=self.step,
+            seconds=self.seconds,
+            history=self.history,
+        )
+        if self.history:
+            with whole_file(folder / LOG) as file:
+                file.write(_csv(self.history))
+
+
+def mpnet_state(
+    folder: Path, config: MPNetTrainConfig, data: dict[str, Any], device: torch.device
+) -> MPNetState:
+    """The training that a folder holds, or a new one with random weights.
+
+    Raises:
+        InvalidWeights: The folder's checkpoint is damaged or no checkpoint of a training.
+        WeightsMismatch: It is of another network, of other data or of settings that would make
+            the training another one.
+    """
+    path = folder / CHECKPOINT
+    if not path.exists():
+        model = _placed(MPNet(config.network), device)
+        return MPNetState(model, _optimizer(model, config), data)
+    model, stored = load_mpnet(path)
+    model = _placed(model, device)
+    try:
+        _check_same(path, stored, config, data)
+        optimizer = _optimizer(model, config)
+        optimizer.load_state_dict(stored["optimizer"])
+        progress = {name: stored[name] for name in ("step", "seconds", "history")}
+    except WeightsMismatch:
+        raise
+    except (AttributeError, KeyError, TypeError, ValueError) as error:
+        raise InvalidWeights(f"{path} is no checkpoint of a training: {error!r}") from error
+    return MPNetState(model, optimizer, data, **progress)
+
+
+def _check_same(
+    path: Path, stored: dict[str, Any], config: MPNetTrainConfig, data: dict[str, Any]
+) -> None:
+    theirs = {"data": stored["data"], **stored["training"]}
+    ours = {"data": data, **config.to_dict()}
+    differing = [n for n in ours if n not in _MAY_CHANGE and theirs.get(n) != ours[n]]
+    if differing:
+        there, here = (
+            ", ".join(f"{name} {values.get(name)!r:.80}" for name in differing)
+            for values in (theirs, ours)
+        )
+        raise WeightsMismatch(
+            f"{path} is of another training: {there}; asked for {here}: choose another folder"
+        )
+
+
+def _optimizer(model: MPNet, config: MPNetTrainConfig) -> optim.Optimizer:
+    kind = optim.Adam if config.optimizer is MPNetOptimizer.ADAM else optim.Adagrad
+    return kind(model.parameters(), lr=config.learning_rate)
+
+
+def _placed(model: MPNet, device: torch.device) -> MPNet:
+    """Move a network to its device, in the layout whose convolutions are the fastest on a CPU."""
+    layout = {"memory_format": torch.channels_last}
+    return model.to(device).to(**layout)  # type: ignore[call-overload,no-any-return]
+
+
+def _csv(rows: list[dict[str, float]]) -> bytes:
+    text = io.StringIO()
+    writer = csv.DictWriter(text, fieldnames=list(rows[0]), lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(
+        {k: f"{v:.6g}" if isinstance(v, float) else v for k, v in row.items()} for row in rows
+    )
+    return text.getvalue().encode()
