@@ -11,6 +11,7 @@ import math
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import pairwise
 from numbers import Integral
 from typing import TypeAlias
@@ -143,12 +144,16 @@ class _Query:
             planning_seconds=time.perf_counter() - self.started,
         )
 
+    @cached_property
+    def latent(self) -> NDArray[np.float32]:
+        """The map's encoding; a query with a clear view never asks for it."""
+        return self.planner.network.encode(self.problem)
+
     def _status(self) -> PlanStatus:
         """Plan; why it ended where no limit did."""
         if not is_connected(~self.problem.blocked, self.problem):
             return PlanStatus.UNREACHABLE
         self._check_limits()
-        self.latent = self.planner.network.encode(self.problem)
         target = self.limits.target_length
         for _ in range(self.planner.restarts):
             self._keep(self._attempt())
