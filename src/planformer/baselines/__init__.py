@@ -2,5 +2,14 @@
 
 from planformer.baselines.mpnet import MPNetPlanner
 from planformer.baselines.mpnet_network import MPNetNetwork, load_mpnet
+from planformer.baselines.next_ks import NextPlanner
+from planformer.baselines.next_network import NextOnnxNetwork, load_next
 
-__all__ = ["MPNetNetwork", "MPNetPlanner", "load_mpnet"]
+__all__ = [
+    "MPNetNetwork",
+    "MPNetPlanner",
+    "NextOnnxNetwork",
+    "NextPlanner",
+    "load_mpnet",
+    "load_next",
+]

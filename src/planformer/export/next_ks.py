@@ -1,0 +1,175 @@
+"""Export of NEXT's network for ONNX Runtime."""
+
+from __future__ import annotations
+
+import io
+import warnings
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import torch
+from torch import Tensor, nn
+
+from planformer.errors import InvalidWeights, MissingExtra
+from planformer.export.card import write_card
+from planformer.export.graph import OPSET
+from planformer.export.onnx import Exported
+from planformer.files import whole_file
+from planformer.models.next_ks import NextNetwork
+from planformer.models.next_ks_storage import load_next
+
+TOLERANCE = 1e-4
+"""Largest difference between ONNX Runtime and PyTorch, in parts of an output's largest number."""
+
+CHECKED_COUNTS = (1, 10, 32)
+"""Numbers of states for which both are compared."""
+
+_INPUTS = ("free", "goal", "context", "states")
+_OUTPUTS = ("plan", "mean", "value")
+
+
+class DeployedNext(nn.Module):
+    """Both stages of the network side by side, so that one file holds them.
+
+    Args:
+        network: The network.
+    """
+
+    def __init__(self, network: NextNetwork) -> None:
+        super().__init__()
+        self.network = network
+
+    def forward(
+        self, free: Tensor, goal: Tensor, context: Tensor, states: Tensor
+    ) -> tuple[Tensor, Tensor, Tensor]:
+        """Plan on a map, and evaluate states in the context of an earlier plan; see `NextNetwork`.
+
+        Args:
+            free: (1, w, w) float32.
+            goal: (1, 2) float32.
+            context: (1, width, w, w) float32.
+            states: (1, N, 2) float32.
+
+        Returns:
+            (1, width, w, w), (1, N, 2) and (1, N) float32.
+        """
+        return self.network.plan(free, goal), *self.network.evaluate(context, states)
+
+
+def export_next(checkpoint: str | Path, path: str | Path, *, name: str | None = None) -> Exported:
+    """Export a checkpoint of NEXT's network to one .onnx file with a card.
+
+    Nothing is written unless ONNX Runtime reproduces PyTorch for all `CHECKED_COUNTS` of states.
+
+    Args:
+        checkpoint: A file that `planformer.training.next_ks.train_next` wrote.
+        path: The .onnx file to write, its folder is created; the card takes its name.
+        name: Name of the weights; by default the file's.
+
+    Returns:
+        The files and the largest difference seen.
+
+    Raises:
+        InvalidWeights: The checkpoint is damaged, or the exported network differs.
+        MissingExtra: onnx or ONNX Runtime is not installed.
+    """
+    path = Path(path)
+    if path.suffix != ".onnx":
+        raise InvalidWeights(f"weights are exported to a file named *.onnx; got {path}")
+    network, stored = load_next(Path(checkpoint))
+    deployed = DeployedNext(network).eval()
+    try:
+        content = to_onnx(deployed)
+        difference = largest_difference(content, deployed)
+    except ModuleNotFoundError as error:
+        raise MissingExtra(error.name or "onnx", "train") from error
+    if not difference <= TOLERANCE:
+        raise InvalidWeights(
+            f"the exported network differs from PyTorch's by {difference:.2g}; at most "
+            f"{TOLERANCE} is allowed"
+        )
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with whole_file(path) as file:
+        file.write(content)
+    return Exported(path, write_card(path, name or path.stem, _facts(network, stored)), difference)
+
+
+def to_onnx(deployed: DeployedNext) -> bytes:
+    """Translate the network to one ONNX graph for any number of states.
+
+    Args:
+        deployed: The network on the CPU.
+
+    Returns:
+        The serialised model; inputs "free", "goal", "context" and "states", outputs "plan", the
+        context of later evaluations, "mean" and "value".
+    """
+    file = io.BytesIO()
+    with warnings.catch_warnings():
+        # PyTorch's newer exporter needs onnxscript; the older one says that it is old.
+        warnings.simplefilter("ignore", DeprecationWarning)
+        warnings.simplefilter("ignore", torch.jit.TracerWarning)  # type: ignore[attr-defined]
+        torch.onnx.export(
+            deployed.eval(),  # the export restores this mode, of all parts
+            example_inputs(deployed, 10),
+            file,  # type: ignore[arg-type]  # declared for paths, made for files too
+            dynamo=False,
+            opset_version=OPSET,
+            input_names=list(_INPUTS),
+            output_names=list(_OUTPUTS),
+            dynamic_axes={
+                "free": {1: "rows", 2: "columns"},
+                **{name: {2: f"{name}_rows", 3: f"{name}_columns"} for name in ("context", "plan")},
+                **{name: {1: "count"} for name in ("states", "mean", "value")},
+            },
+        )
+    return file.getvalue()
+
+
+def example_inputs(deployed: DeployedNext, count: int, *, seed: int = 0) -> tuple[Tensor, ...]:
+    """Random inputs with `count` states."""
+    config, generator = deployed.network.config, torch.Generator().manual_seed(seed)
+    square = (config.side, config.side)
+    shapes = ((1, *square), (1, 2), (1, config.width, *square), (1, count, 2))
+    free, goal, context, states = (torch.rand(shape, generator=generator) for shape in shapes)
+    return free, 2 * goal - 1, 2 * context - 1, 2 * states - 1
+
+
+def largest_difference(content: bytes, deployed: DeployedNext) -> float:
+    """Compare ONNX Runtime with PyTorch on random inputs.
+
+    Args:
+        content: The serialised ONNX model.
+        deployed: The network that it was made from.
+
+    Returns:
+        The largest absolute difference of an output, in parts of its largest number where that
+        exceeds 1. NaN if there is one.
+    """
+    import onnxruntime
+
+    session = onnxruntime.InferenceSession(content, providers=["CPUExecutionProvider"])
+    differences = [0.0]
+    for seed, count in enumerate(CHECKED_COUNTS):
+        inputs = example_inputs(deployed, count, seed=seed)
+        feed = {name: value.numpy() for name, value in zip(_INPUTS, inputs, strict=True)}
+        with torch.no_grad():
+            expected = deployed(*inputs)
+        for of_onnx, of_torch in zip(session.run(_OUTPUTS, feed), expected, strict=True):
+            size = max(1.0, float(of_torch.abs().max()))
+            differences.append(float(np.abs(of_onnx - of_torch.numpy()).max()) / size)
+    return float(np.max(differences))
+
+
+def _facts(network: NextNetwork, stored: dict[str, Any]) -> dict[str, Any]:
+    """What a card says of NEXT's network."""
+    history = stored.get("history") or [{}]
+    errors = ("loss", "step_error", "value_error")
+    return {
+        "robot": "point",
+        "planner": "NEXT-KS",
+        "network": network.config.to_dict(),
+        "training": {key: stored.get(key) for key in ("training", "data", "step", "seconds")},
+        "validation": {key: history[-1].get(key) for key in errors},
+    }
