@@ -29,7 +29,7 @@ using YawArray = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device
 
 Region make_region(const PosesArray& anchors, const OffsetArray& offsets, bool has_heading,
                    double half_width, double minor_axis, const YawArray& yaw_deviations,
-                   const PosesArray& ends, double area) {
+                   const std::optional<Region::Ends>& ends, double area) {
     if (anchors.shape(0) == 0) throw nb::value_error("a region needs at least one anchor");
     if (yaw_deviations.shape(0) != anchors.shape(0) || offsets.shape(0) != anchors.shape(0)) {
         throw nb::value_error("a region needs an offset and a yaw deviation for each anchor");
@@ -44,9 +44,7 @@ Region make_region(const PosesArray& anchors, const OffsetArray& offsets, bool h
     region.minor_axis = minor_axis;
     region.yaw_deviations.assign(yaw_deviations.data(),
                                  yaw_deviations.data() + yaw_deviations.size());
-    for (std::size_t i = 0; i < ends.shape(0); ++i) {
-        region.ends.push_back(to_pose(ends.data() + 3 * i));
-    }
+    if (ends) region.ends = *ends;
     region.area = area;
     return region;
 }
@@ -124,10 +122,20 @@ void register_planning(nb::module_& m) {
         .def(nb::init<>())
         .def("cancel", &Cancellation::cancel, "End the plans that hold this object; thread-safe.")
         .def_prop_ro("is_cancelled", &Cancellation::is_cancelled);
+    nb::class_<Region::Ends>(m, "Ends", "Where a car starts and arrives.")
+        .def(
+            "__init__",
+            [](Region::Ends* self, const std::array<double, 3>& start,
+               const std::array<double, 3>& goal, double turning_radius) {
+                require_positive("turning_radius", turning_radius);
+                new (self)
+                    Region::Ends{to_pose(start.data()), to_pose(goal.data()), turning_radius};
+            },
+            nb::arg("start"), nb::arg("goal"), nb::arg("turning_radius"));
     nb::class_<Region>(m, "Region")
         .def(nb::new_(&make_region), nb::arg("anchors"), nb::arg("offsets"), nb::kw_only(),
              nb::arg("has_heading"), nb::arg("half_width"), nb::arg("minor_axis"),
-             nb::arg("yaw_deviations"), nb::arg("ends"), nb::arg("area"))
+             nb::arg("yaw_deviations"), nb::arg("ends").none(), nb::arg("area"))
         .def(
             "sample",
             [](const Region& self, std::size_t count, std::uint32_t seed) {

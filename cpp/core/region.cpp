@@ -15,8 +15,10 @@ namespace {
 
 /// Draws that miss the map or the region are repeated this often before a place inside is taken.
 constexpr int kMaxRedraws = 100;
-/// Share of the samples round the ends.
-constexpr double kEndShare = 0.15;
+/// Share of the samples next to start and goal.
+constexpr double kEndShare = 0.2;
+/// Longest of the two arcs to such a sample, in turning radii.
+constexpr double kEndArc = 2.5;
 /// What rounding may put outside of a square [m].
 constexpr double kRounding = 1e-9;
 
@@ -46,6 +48,18 @@ Pose sample_shape(const Region& region, std::size_t index, ompl::RNG& rng) {
     const Pose centre{anchor.x + dx, anchor.y + dy, anchor.yaw};
     if (!region.has_heading) return sample_square(centre, region.minor_axis, rng);
     return sample_ellipse(region, centre, region.yaw_deviations[index], rng);
+}
+
+/// Draws a pose two arcs or straights ahead of the start, or as far back from the goal.
+Pose sample_end(const Region::Ends& ends, ompl::RNG& rng) {
+    const bool ahead = rng.uniformBool();
+    Pose pose = ahead ? ends.start : ends.goal;
+    for (int i = 0; i < 2; ++i) {
+        const double curvature = rng.uniformInt(-1, 1) / ends.turning_radius;
+        const double length = rng.uniformReal(0.0, kEndArc * ends.turning_radius);
+        pose = advance(pose, curvature, ahead ? length : -length);
+    }
+    return pose;
 }
 
 bool is_in_square(const Pose& anchor, double half_width, const Pose& pose) {
@@ -83,10 +97,8 @@ Pose read_state(const ob::StateSpace& space, const ob::State* state) {
 }
 
 Pose sample_region(const Region& region, ompl::RNG& rng) {
-    if (!region.ends.empty() && rng.uniform01() < kEndShare) {
-        const int end = rng.uniformInt(0, static_cast<int>(region.ends.size()) - 1);
-        return sample_square(region.ends[static_cast<std::size_t>(end)], region.half_width, rng);
-    }
+    const bool is_car = region.ends.turning_radius > 0.0;
+    if (is_car && rng.uniform01() < kEndShare) return sample_end(region.ends, rng);
     const int last = static_cast<int>(region.anchors.size()) - 1;
     const auto index = static_cast<std::size_t>(rng.uniformInt(0, last));
     Pose pose = sample_shape(region, index, rng);

@@ -21,9 +21,16 @@ namespace planformer {
 /// proposal is unsure of it. A shape may lie beside its anchor; what of it leaves the anchors'
 /// squares of side 2 * half_width is cut off.
 ///
-/// Some samples come from squares of side 2 * half_width round the `ends`, with any yaw: where a
-/// car starts or arrives it often has to turn about, and one heading an anchor cannot tell how.
+/// Some samples are poses soon after a car's start or shortly before its goal: in a tight place
+/// hardly any others join a tree to the goal, and one heading an anchor cannot tell how a car turns
+/// about.
 struct Region {
+    /// Where a car starts and arrives; a turning radius [m] of 0 stands for no car.
+    struct Ends {
+        Pose start;
+        Pose goal;
+        double turning_radius = 0.0;
+    };
     struct Offset {
         double x = 0.0;  ///< [m]
         double y = 0.0;  ///< [m]
@@ -35,8 +42,8 @@ struct Region {
     double half_width = 0.0;             ///< [m]
     double minor_axis = 0.0;             ///< [m]
     std::vector<double> yaw_deviations;  ///< standard deviation of each anchor's yaw [rad]
-    std::vector<Pose> ends;              ///< start and goal, or nothing
-    double area = 0.0;                   ///< [m^2] of the union of the shapes
+    Ends ends;
+    double area = 0.0;  ///< [m^2] of the union of the shapes
 };
 
 /// Extent of the map: states are drawn from [0, x] x [0, y].

@@ -48,6 +48,14 @@ class Cancellation:
     @property
     def is_cancelled(self) -> bool: ...
 
+class Ends:
+    def __init__(
+        self,
+        start: list[float],  # x, y [m], yaw [rad]
+        goal: list[float],
+        turning_radius: float,
+    ) -> None: ...
+
 class Region:
     def __init__(
         self,
@@ -58,7 +66,7 @@ class Region:
         half_width: float,
         minor_axis: float,
         yaw_deviations: NDArray[np.float64],  # (N,) [rad]
-        ends: NDArray[np.float64],  # (M, 3)
+        ends: Ends | None,
         area: float,
     ) -> None: ...
     def sample(self, count: int, seed: int) -> NDArray[np.float64]: ...  # (count, 3)

@@ -40,7 +40,7 @@ def draw(anchors, headings, half_width, count, seed=1, offsets=None):
             poses[:, :2], headings, half_width, area=1.0, offsets=offsets
         ).minor_axis,
         yaw_deviations=np.full(len(poses), YAW_DEVIATION),
-        ends=np.empty((0, 3)),
+        ends=None,
         area=1.0,
     )
     return region.sample(count, seed)
@@ -84,7 +84,7 @@ def test_each_anchor_has_its_own_spread_of_the_yaw():
         half_width=0.4,
         minor_axis=0.2,
         yaw_deviations=deviations,
-        ends=np.empty((0, 3)),
+        ends=None,
         area=1.0,
     )
     samples = region.sample(8000, 1)
@@ -94,8 +94,8 @@ def test_each_anchor_has_its_own_spread_of_the_yaw():
         assert turn.std() == pytest.approx(deviation, rel=0.06)
 
 
-def test_some_samples_lie_round_the_ends_with_any_yaw():
-    ends = np.array([(20.0, 5.0, 0.3), (30.0, 5.0, -1.0)])
+def test_some_samples_are_poses_after_the_start_or_before_the_goal():
+    start, goal, radius = (20.0, 5.0, 0.3), (40.0, 5.0, -1.0), 0.5
     region = _core.Region(
         np.zeros((1, 3)),
         np.zeros((1, 2)),
@@ -103,17 +103,18 @@ def test_some_samples_lie_round_the_ends_with_any_yaw():
         half_width=0.8,
         minor_axis=0.4,
         yaw_deviations=np.array([0.1]),
-        ends=ends,
+        ends=_core.Ends(list(start), list(goal), radius),
         area=1.0,
     )
     samples = region.sample(8000, 1)
-    for end in ends:
-        offset = samples[:, :2] - end[:2]
-        near = samples[np.abs(offset).max(axis=1) <= 0.8]
-        assert 0.05 < len(near) / len(samples) < 0.1
-        assert np.ptp(near[:, 0]) > 1.5 and np.ptp(near[:, 1]) > 1.5
-        assert np.hypot(np.cos(near[:, 2]).mean(), np.sin(near[:, 2]).mean()) < 0.15
-    assert (np.abs(samples[:, :2]).max(axis=1) <= 0.8).mean() == pytest.approx(0.85, abs=0.02)
+    after, before = (samples[np.abs(samples[:, 0] - end[0]) < 5.0] for end in (start, goal))
+    longest = 2 * 2.5 * radius
+    for near in (after, before):
+        assert 0.08 < len(near) / len(samples) < 0.12
+    ends = np.tile(start, (len(after), 1)), np.tile(goal, (len(before), 1))
+    assert _core.curve_lengths(ends[0], after, radius, False).max() <= longest + 1e-6
+    assert _core.curve_lengths(before, ends[1], radius, False).max() <= longest + 1e-6
+    assert (np.abs(samples[:, :2]).max(axis=1) <= 0.8).mean() == pytest.approx(0.8, abs=0.02)
 
 
 def test_a_spread_for_each_anchor_is_needed():

@@ -23,14 +23,14 @@ class SamplingRegion:
     Without headings the shapes are squares and a car's yaw is uniform; with headings they are
     ellipses along them (Motion Planning Transformers, section III.B). Shapes with an offset from
     their anchors are cut off where the anchors' squares end; squares then have half the side. With
-    headings some samples lie round start and goal, with any yaw, because a car often has to turn
-    about there.
+    headings some samples are poses soon after the start or shortly before the goal, because a car
+    often has to turn about there.
 
     Attributes:
         anchors: (K, 2) float64 anchor points in metres, K >= 1.
         headings: (K,) float64 predicted headings in rad, or None.
-        half_width: Half the side of the anchors' squares, also the major semi-axis of an ellipse, in
-            metres.
+        half_width: Half the side of the anchors' squares in metres, also an ellipse's major
+            semi-axis.
         area: Area of the union of the shapes in square metres.
         yaw_deviations: (K,) float64 standard deviation of the yaw round each heading in rad, > 0;
             None for 0.35 rad everywhere.

@@ -161,7 +161,10 @@ def _model(robot: Robot) -> tuple[_core.RobotKind, float, bool, float, float]:
 def _core_region(region: SamplingRegion, problem: Problem) -> _core.Region:
     headings = np.zeros(len(region.anchors)) if region.headings is None else region.headings
     poses = problem.grid.frame.to_local(np.column_stack((region.anchors, headings)))
-    ends = np.stack((problem.local_start, problem.local_goal))
+    ends = None
+    if isinstance(problem.robot, DubinsCar) and region.headings is not None:
+        start, goal = problem.local_start.tolist(), problem.local_goal.tolist()
+        ends = _core.Ends(start, goal, problem.robot.turning_radius)
     return _core.Region(
         np.ascontiguousarray(poses),
         np.zeros_like(region.anchors)
@@ -175,7 +178,7 @@ def _core_region(region: SamplingRegion, problem: Problem) -> _core.Region:
             if region.yaw_deviations is None
             else region.yaw_deviations
         ),
-        ends=ends if region.headings is not None else np.empty((0, 3)),
+        ends=ends,
         area=region.area,
     )
 
