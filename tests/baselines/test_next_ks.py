@@ -16,6 +16,7 @@ import planformer as pf
 from planformer.baselines import NextPlanner, load_next
 from planformer.baselines.next_map import free_parts, normalised, square_side
 from planformer.baselines.next_tree import SearchTree
+from planformer.baselines.next_visits import SmoothedVisits
 from planformer.data.problems import random_problems
 from planformer.errors import InvalidParameter, InvalidWeights, UnknownPlanner, WeightsMismatch
 from planformer.export.next_ks import export_next
@@ -243,3 +244,14 @@ def test_the_coarse_map_keeps_the_free_area():
     assert parts[7:].max() == 0.0
     assert square_side(blocked, 0.1) == pytest.approx(5.3)
     np.testing.assert_allclose(normalised([(0.0, 5.3)], 5.3), [(-1.0, 1.0)])
+
+
+def test_visits_count_for_what_is_near():
+    states = np.random.default_rng(0).random((6, 2))
+    visits = SmoothedVisits(6, radius=0.5)
+    assert [visits.note(state) for state in states] == list(range(6))
+    distances = np.linalg.norm(states[:, None] - states, axis=-1)
+    expected = np.exp(-((distances / 0.5) ** 2)).sum(axis=1)
+    np.testing.assert_allclose(visits.counts, expected)
+    np.testing.assert_allclose(visits.at(states), expected)
+    np.testing.assert_allclose(visits.at(np.array([(9.0, 9.0)])), [0.0], atol=1e-12)

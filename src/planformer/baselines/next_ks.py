@@ -21,6 +21,7 @@ from planformer import _core
 from planformer.baselines.next_map import free_parts, normalised, square_side
 from planformer.baselines.next_network import NextEvaluator
 from planformer.baselines.next_tree import SearchTree
+from planformer.baselines.next_visits import SmoothedVisits
 from planformer.errors import InvalidParameter, UnknownPlanner
 from planformer.geometry import polyline_length
 from planformer.planning import (
@@ -135,9 +136,9 @@ class _Query:
         self.tree = SearchTree(problem.local_start[:2], capacity, radius, self._is_free)
         self.reached: int | None = None
         self.means, self.values = np.empty((capacity, 2)), np.full(capacity, np.nan)
-        self.counts = np.ones(capacity)
-        self.visits = np.empty((capacity, 2))
-        self.visits[0], self.visit_count = self.tree.states[0], 1
+        self.visits = SmoothedVisits(capacity, self.step)
+        self.visit_of = np.empty(capacity, np.intp)
+        self.visit_of[0] = self.visits.note(self.tree.states[0])
 
     def answer(self, *, keep_tree: bool) -> PlanResult:
         status = self._status()
@@ -218,12 +219,12 @@ class _Query:
     def _follow_policy(self) -> None:
         """Choose a state, some steps from it and the best of them, by their confidence bounds."""
         self._evaluate_new()
-        states = self.tree.states
-        parent = int(self._bounds(self.values[: len(states)], self.counts[: len(states)]).argmax())
+        states, counts = self.tree.states, self._counts()
+        parent = int(self._bounds(self.values[: len(states)], counts).argmax())
         noise = DEVIATION * self.rng.standard_normal((_CANDIDATES, 2))
         candidates = states[parent] + self.step * _cut(self.means[parent] + noise)
         means, values = self._evaluate(candidates)
-        best = int(self._bounds(values, self._visits_of(candidates)).argmax())
+        best = int(self._bounds(values, self.visits.at(candidates)).argmax())
         new = self._add(parent, candidates[best])
         if new is not None:
             self.means[new], self.values[new] = means[best], values[best]
@@ -232,8 +233,12 @@ class _Query:
         self, values: NDArray[np.float64], counts: NDArray[np.float64]
     ) -> NDArray[np.float64]:
         """Upper confidence bounds of states."""
-        total = math.log(self.counts[: len(self.tree)].sum())
+        total = math.log(self._counts().sum())
         return np.asarray(values + self.planner.uncertainty * np.sqrt(total / counts))
+
+    def _counts(self) -> NDArray[np.float64]:
+        """(V,) smoothed numbers of visits of the tree's states."""
+        return self.visits.counts[self.visit_of[: len(self.tree)]]
 
     def _evaluate_new(self) -> None:
         """Evaluate the states that have not been."""
@@ -250,8 +255,10 @@ class _Query:
     def _add(self, parent: int, state: NDArray[np.float64]) -> int | None:
         """Add a state to the tree if it can be, and join it to the goal if that is near."""
         new = self.tree.extend(parent, state)
-        self._count(state, new)
+        # One in collision counts too: it would be chosen for ever otherwise.
+        visit = self.visits.note(state)
         if new is not None:
+            self.visit_of[new] = visit
             self._look_for_goal(new)
         return new
 
@@ -260,33 +267,12 @@ class _Query:
             return
         self.reached = self.tree.extend(index, self.goal)
         if self.reached is not None:
-            self._count(self.goal, self.reached)
-
-    def _count(self, state: NDArray[np.float64], index: int | None) -> None:
-        """Note a visit, also of a state in collision: it would be chosen for ever otherwise."""
-        self.counts[: len(self.tree)] += _kernel(self.tree.states, state, self.step)
-        self.visits[self.visit_count] = state
-        self.visit_count += 1
-        if index is not None:
-            self.counts[index] = self._visits_of(state[None])[0]
-
-    def _visits_of(self, states: NDArray[np.float64]) -> NDArray[np.float64]:
-        """(N,) smoothed numbers of visits of (N, 2) states."""
-        visits = self.visits[: self.visit_count]
-        return np.asarray(_kernel(states[:, None], visits, self.step).sum(axis=1))
+            self.visit_of[self.reached] = self.visits.note(self.goal)
 
     def _is_free(self, start: NDArray[np.float64], end: NDArray[np.float64]) -> bool:
         """Whether no cell that a segment touches is blocked."""
         grid = self.problem.grid
         return _core.segment_is_free(self.problem.blocked, grid.resolution, *start, *end)
-
-
-def _kernel(
-    states: NDArray[np.float64], visits: NDArray[np.float64], step: float
-) -> NDArray[np.float64]:
-    """(...) weights with which visits (..., 2) count for states (..., 2)."""
-    offsets = (states - visits) / step
-    return np.asarray(np.exp(-(offsets * offsets).sum(axis=-1)))
 
 
 def _cut(steps: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -109,8 +109,10 @@ class StateAttention(nn.Module):
         centres = _cell_centres(side, states)
         hidden = self.of_cell(centres) + self.of_state(states)[..., None, :]
         offset = (centres - states[..., None, :]) * (0.5 * side)
+        # As one matrix: ONNX Runtime is faster then.
+        scores = self.score(hidden.flatten(0, -2)).view(hidden.shape[:-1]).float()
         # Attention starts local, where the published one has to learn it.
-        scores = self.score(hidden)[..., 0].float() - 2.0 * (offset * offset).sum(-1)
+        scores = scores - 2.0 * (offset * offset).sum(-1)
         return scores.softmax(-1), self.depth(states).float().softmax(-1)
 
 
