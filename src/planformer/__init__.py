@@ -14,6 +14,7 @@ from planformer.errors import PlanformerError
 
 if TYPE_CHECKING:
     from planformer.api import plan as plan
+    from planformer.api import planner_names as planner_names
     from planformer.api import propose_region as propose_region
     from planformer.guidance import Region as Region
     from planformer.guidance import RegionProposer as RegionProposer
@@ -30,7 +31,6 @@ if TYPE_CHECKING:
     from planformer.planning import PlanStatus as PlanStatus
     from planformer.planning import Problem as Problem
     from planformer.planning import path_is_valid as path_is_valid
-    from planformer.planning import planner_names as planner_names
     from planformer.robots import DubinsCar as DubinsCar
     from planformer.robots import PointRobot as PointRobot
     from planformer.robots import ReedsSheppCar as ReedsSheppCar
@@ -56,7 +56,7 @@ _HOME = {
     "load_scenarios": "maps",
     "path_is_valid": "planning",
     "plan": "api",
-    "planner_names": "planning",
+    "planner_names": "api",
     "propose_region": "api",
     "save_map": "maps",
 }

@@ -1,4 +1,4 @@
-"""The two calls that users make: propose a region, and plan inside it."""
+"""The calls that users make: propose a region, plan inside it, and list the planners."""
 
 from __future__ import annotations
 
@@ -7,6 +7,9 @@ import time
 from collections.abc import Sequence
 from typing import cast
 
+from planformer import planning
+from planformer.baselines import learned_planner_names, load_planner
+from planformer.errors import UnknownPlanner
 from planformer.guidance import Region, RegionProposer, resolve_guide
 from planformer.maps import OccupancyGrid
 from planformer.planning import CancelToken, PlanResult, Problem, SearchLimits, search
@@ -41,9 +44,10 @@ def plan(
         robot: A `PointRobot`, `DubinsCar` or `ReedsSheppCar`.
         start: (x, y) or, for a car, (x, y, yaw) in the world frame, metres and rad.
         goal: As the start.
-        planner: OMPL class name; `planner_names(robot)` lists them.
+        planner: OMPL class name, or a learned planner that plans by itself (MPNet, NEXT-KS);
+            `planner_names(robot)` lists them.
         guide: Name of shipped weights, path of an .onnx file, a `RegionProposer`, or None for an
-            unguided planner.
+            unguided planner. A learned planner does without, and without threshold and exploration.
         threshold: Probability above which an anchor belongs to the region: 0.5 as in the paper, or
             None to choose the one that connects start and goal in this query. Only for a guide
             given by name.
@@ -53,7 +57,7 @@ def plan(
         target_length: Stop at the first path at most this long, in metres.
         max_vertices: Stop when the tree holds this many states.
         seed: 0 to 2**32 - 1 for a reproducible search (unless the time limit ends it).
-        keep_tree: Return the search tree, for pictures.
+        keep_tree: Return the search tree, for pictures; learned planners return none.
         cancel: A `CancelToken` whose `cancel()` ends the search from another thread.
 
     Returns:
@@ -66,6 +70,13 @@ def plan(
     """
     problem = Problem(grid, robot, cast(State, start), cast(State, goal))
     limits = SearchLimits(time_limit, target_length, max_vertices)
+    if planner in learned_planner_names(robot):
+        return load_planner(planner).search(problem, limits=limits, seed=seed, cancel=cancel)
+    if planner not in (names := planner_names(robot)):
+        raise UnknownPlanner(
+            f"unknown planner {planner!r} for a {type(robot).__name__}; valid names: "
+            f"{', '.join(names)}"
+        )
     region, seconds = None, 0.0
     if guide is not None:
         started = time.perf_counter()
@@ -82,6 +93,11 @@ def plan(
         cancel=cancel,
     )
     return dataclasses.replace(result, region=region, proposal_seconds=seconds)
+
+
+def planner_names(robot: Robot) -> list[str]:
+    """Names of the planners that `plan` has for a robot: OMPL's classes, then the learned ones."""
+    return [*planning.planner_names(robot), *learned_planner_names(robot)]
 
 
 def propose_region(

@@ -28,9 +28,9 @@ def export_command(
     Example: planformer export runs/small/checkpoint.pt office.onnx
     """
     importlib.import_module("planformer.models")  # says how to install PyTorch where it lacks
-    from planformer.export import export
+    from planformer.export import export_checkpoint
 
-    made = export(checkpoint, output, name=name)
+    made = export_checkpoint(checkpoint, output, name=name)
     if as_json:
         print_json(
             {

@@ -46,9 +46,9 @@ def _show_map(file: Path, resolution: float | None, *, as_json: bool) -> None:
 
 
 def _installation() -> dict[str, Any]:
+    from planformer.api import planner_names
     from planformer.cli.plan import RobotKind, make_robot
     from planformer.guidance import guide_names
-    from planformer.planning import planner_names
 
     return {
         "planformer": planformer.__version__,

@@ -12,6 +12,7 @@ import typer
 
 from planformer.cli.console import print_facts, print_json, stderr
 from planformer.cli.exit_codes import INTERRUPTED
+from planformer.cli.train_baseline import BASELINES, require_none, train_baseline
 
 if TYPE_CHECKING:
     from planformer.training import Progress, TrainConfig, TrainResult
@@ -26,7 +27,7 @@ def train_command(
         str,
         typer.Option(
             help="Network: small, tiny, dubins, paper, paper-small, unet or unet-small; the paper's"
-            " with -fixed-encoding as well."
+            " with -fixed-encoding as well; mpnet or next-ks, planners of their own."
         ),
     ] = "small",
     recipe: Annotated[
@@ -56,9 +57,9 @@ def train_command(
         bool, typer.Option("--json", help="Print the outcome as JSON and nothing else.")
     ] = False,
 ) -> None:
-    """Train a region proposal network; Ctrl-C stops after a step, the same command goes on.
+    """Train a network; Ctrl-C stops after a step, the same command goes on.
 
-    The folder receives checkpoint.pt, log.csv and curve.png.
+    The folder receives checkpoint.pt, log.csv and, for a region proposal network, curve.png.
 
     Example: planformer train data runs/small --minutes 60
     """
@@ -66,25 +67,31 @@ def train_command(
     from planformer.training import config_for, is_first_process, open_paths, train
 
     stderr.quiet = not is_first_process()
-    network = network_preset(preset)
-    config = config_for(
-        network,
-        recipe=recipe,
-        steps=steps,
-        seconds=None if minutes is None else 60.0 * minutes,
-        batch_size=batch_size,
-        learning_rate=learning_rate,
-        positive_weight=positive_weight,
-        validate_every=validate_every,
-        seed=seed,
-        workers=workers,
-        threads=threads,
-        device=device,
-        devices=devices,
-        initial=None if initial is None else str(initial),
-        teacher=None if teacher is None else str(teacher),
-    )
+    given = {
+        "steps": steps,
+        "seconds": None if minutes is None else 60.0 * minutes,
+        "learning_rate": learning_rate,
+        "validate_every": validate_every,
+        "seed": seed,
+        "threads": threads,
+        "device": device,
+    }
+    more = {
+        "recipe": recipe,
+        "batch_size": batch_size,
+        "positive_weight": positive_weight,
+        "workers": workers,
+        "devices": devices,
+        "initial": None if initial is None else str(initial),
+        "teacher": None if teacher is None else str(teacher),
+    }
     problems, validation = open_paths(data / "train"), open_paths(data / "val")
+    if preset in BASELINES:
+        require_none(preset, more)
+        train_baseline(preset, problems, validation, output, given, as_json=as_json)
+        return
+    network = network_preset(preset)
+    config = config_for(network, **given, **more)
     with _progress_bar(config, output) as show:
         result = train(network, config, problems, output, validation=validation, report=show)
     if not is_first_process():

@@ -9,13 +9,15 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from planformer.baselines import learned_planner_names, load_planner
 from planformer.bench.guides import LazyThetaProposer
 from planformer.data.experts import HybridAstarExpert, LazyThetaExpert, astar_path
 from planformer.geometry import polyline_length
 from planformer.guidance import RegionProposer, guide_names, load_network
 from planformer.guidance.onnx import OnnxProposer
 from planformer.guidance.region import PAPER_THRESHOLD
-from planformer.planning import Problem, SearchLimits, path_is_valid, search
+from planformer.planning import PlanResult, Problem, SearchLimits, path_is_valid, search
+from planformer.robots import PointRobot
 
 CORRIDOR = "lazy-theta corridor"
 """A guide without learning: the surroundings of the shortest any-angle path."""
@@ -40,6 +42,17 @@ class Solution:
     proposal_seconds: float
     planning_seconds: float
     status: str
+
+
+def _solution(result: PlanResult, proposal_seconds: float) -> Solution:
+    return Solution(
+        path=result.path if result.solved else None,
+        length=result.length,
+        vertices=result.vertices,
+        proposal_seconds=proposal_seconds,
+        planning_seconds=result.planning_seconds,
+        status=result.status.value,
+    )
 
 
 @dataclass(frozen=True)
@@ -76,20 +89,33 @@ class GuidedPlanner:
             limits=limits,
             seed=seed,
         )
-        return Solution(
-            path=result.path if result.solved else None,
-            length=result.length,
-            vertices=result.vertices,
-            proposal_seconds=seconds,
-            planning_seconds=result.planning_seconds,
-            status=result.status.value,
-        )
+        return _solution(result, seconds)
 
     def _proposer(self) -> RegionProposer:
         assert self.guide is not None
         if self.guide == CORRIDOR:
             return LazyThetaProposer()
         return OnnxProposer(load_network(self.guide), self.threshold)
+
+
+@dataclass(frozen=True)
+class LearnedSystem:
+    """A planner with a network of its own.
+
+    Attributes:
+        planner: Its name, see `planformer.baselines`.
+    """
+
+    planner: str
+
+    @property
+    def is_available(self) -> bool:
+        """Whether its weights are there."""
+        return self.planner in learned_planner_names(PointRobot())
+
+    def solve(self, problem: Problem, limits: SearchLimits, seed: int) -> Solution:
+        """Plan; its time includes the network's."""
+        return _solution(load_planner(self.planner).search(problem, limits=limits, seed=seed), 0.0)
 
 
 Solve = Callable[[Problem, int], NDArray[np.float64] | None]
@@ -123,7 +149,7 @@ class GridSearch:
         )
 
 
-System = GuidedPlanner | GridSearch
+System = GuidedPlanner | LearnedSystem | GridSearch
 
 
 def _astar(problem: Problem, seed: int) -> NDArray[np.float64] | None:
@@ -142,6 +168,8 @@ POINT_SYSTEMS: dict[str, System] = {
     "AIT*": GuidedPlanner("AITstar"),
     "UNet-RRT*": GuidedPlanner("RRTstar", "unet", PAPER_THRESHOLD),
     "UNet-RRT*-EE": GuidedPlanner("RRTstar", "unet", PAPER_THRESHOLD, _EE),
+    "MPNet": LearnedSystem("MPNet"),
+    "NEXT-KS": LearnedSystem("NEXT-KS"),
     "MPT-RRT* (F.E.)": GuidedPlanner("RRTstar", "mpt-fixed-encoding", PAPER_THRESHOLD),
     "MPT-IRRT* (F.E.)": GuidedPlanner("InformedRRTstar", "mpt-fixed-encoding", PAPER_THRESHOLD),
     "MPT-RRT*": GuidedPlanner("RRTstar", "mpt"),
