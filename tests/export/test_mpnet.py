@@ -16,7 +16,7 @@ from planformer.errors import InvalidWeights
 from planformer.export import mpnet
 from planformer.export.mpnet import DeployedMPNet, example_inputs, export_mpnet
 from planformer.models.mpnet import MPNet, MPNetConfig
-from planformer.models.mpnet_storage import load_mpnet, save_mpnet
+from planformer.models.storage import load_mpnet, save_planner
 from planformer.weights import read_weights
 
 # Large enough for some arrays to be stored in half precision.
@@ -29,7 +29,7 @@ def checkpoint(tmp_path):
         torch.manual_seed(0)
         network = MPNet(CONFIG)
     history = [{"step": 1, "validation_loss": 0.2}, {"step": 2, "validation_loss": 0.1}]
-    save_mpnet(tmp_path / "a.pt", network, step=2, history=history, data={"seed": 1})
+    save_planner(tmp_path / "a.pt", network, step=2, history=history, data={"seed": 1})
     return tmp_path / "a.pt"
 
 

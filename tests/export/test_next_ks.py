@@ -13,7 +13,7 @@ from planformer.baselines.next_network import load_next
 from planformer.errors import InvalidWeights
 from planformer.export.next_ks import TOLERANCE, DeployedNext, example_inputs, export_next
 from planformer.models.next_ks import NextConfig, NextNetwork
-from planformer.models.next_ks_storage import save_next
+from planformer.models.storage import save_planner
 
 CONFIG = NextConfig(side=9, depth=2, features=4, iterations=3)
 
@@ -27,7 +27,7 @@ def network():
 @pytest.fixture(scope="module")
 def checkpoint(network, tmp_path_factory):
     path = tmp_path_factory.mktemp("next") / "checkpoint.pt"
-    save_next(path, network, step=7, history=[{"loss": 1.0, "step_error": 0.5}])
+    save_planner(path, network, step=7, history=[{"loss": 1.0, "step_error": 0.5}])
     return path
 
 
@@ -60,7 +60,7 @@ def test_the_card_says_what_the_weights_are(checkpoint, tmp_path):
 
 
 def test_nothing_is_written_for_a_bad_checkpoint(network, tmp_path):
-    save_next(tmp_path / "nan.pt", network)
+    save_planner(tmp_path / "nan.pt", network)
     content = torch.load(tmp_path / "nan.pt")
     content["model"]["head.0.bias"] += float("nan")
     torch.save(content, tmp_path / "nan.pt")

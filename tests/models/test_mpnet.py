@@ -9,7 +9,7 @@ import torch
 from planformer.errors import InvalidParameter, InvalidWeights
 from planformer.models import MPTConfig, create_model, save_checkpoint
 from planformer.models.mpnet import MPNet, MPNetConfig, _area_pooled
-from planformer.models.mpnet_storage import load_mpnet, save_mpnet
+from planformer.models.storage import load_mpnet, save_planner
 
 SMALL = MPNetConfig(channels=(2, 3, 4), grid=3, latent=5, widths=(8, 7, 6))
 
@@ -89,7 +89,7 @@ def test_impossible_configurations(change):
 
 
 def test_a_checkpoint_holds_the_network_and_its_state(network, tmp_path):
-    save_mpnet(tmp_path / "new" / "a.pt", network, step=3)
+    save_planner(tmp_path / "new" / "a.pt", network, step=3)
     loaded, stored = load_mpnet(tmp_path / "new" / "a.pt")
     assert stored == {"step": 3}
     assert loaded.config == SMALL

@@ -8,7 +8,7 @@ import torch
 
 from planformer.errors import InvalidParameter, InvalidWeights
 from planformer.models.next_ks import NextConfig, NextNetwork
-from planformer.models.next_ks_storage import load_next, save_next
+from planformer.models.storage import load_next, save_planner
 
 SMALL = NextConfig(side=8, depth=2, features=4, iterations=6)
 
@@ -88,7 +88,7 @@ def test_map_goal_and_state_matter_in_a_fresh_network(network):
 
 
 def test_a_network_survives_storage(network, tmp_path):
-    save_next(tmp_path / "sub" / "next.pt", network, step=3)
+    save_planner(tmp_path / "sub" / "next.pt", network, step=3)
     loaded, state = load_next(tmp_path / "sub" / "next.pt")
     assert (loaded.config, state) == (SMALL, {"step": 3})
     for ours, theirs in zip(loaded.parameters(), network.parameters(), strict=True):

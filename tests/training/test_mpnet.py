@@ -15,7 +15,7 @@ import torch
 
 from planformer.data.dataset import PathProblem
 from planformer.errors import InvalidDataset, InvalidParameter, TrainingDiverged, WeightsMismatch
-from planformer.models.mpnet_storage import load_mpnet
+from planformer.models.storage import load_mpnet
 from planformer.training.mpnet import train_mpnet
 from planformer.training.mpnet_config import MPNetOptimizer, MPNetTrainConfig
 from planformer.training.mpnet_samples import WaypointSamples, _next_waypoint

@@ -21,7 +21,7 @@ from planformer.errors import (
     WeightsMismatch,
 )
 from planformer.models.next_ks import NextNetwork
-from planformer.models.next_ks_storage import load_next
+from planformer.models.storage import load_next
 from planformer.training.next_ks import exploration, train_next
 from planformer.training.next_ks_config import NextTrainConfig
 from planformer.training.next_ks_samples import _follow, make_lessons, searched_paths

@@ -17,7 +17,7 @@ from planformer.export.graph import OPSET
 from planformer.export.onnx import Exported
 from planformer.files import whole_file
 from planformer.models.mpnet import MPNet
-from planformer.models.mpnet_storage import load_mpnet
+from planformer.models.storage import load_mpnet
 
 TOLERANCE = 1e-4
 """Largest difference of an output between ONNX Runtime and PyTorch."""

@@ -17,7 +17,7 @@ from planformer.export.graph import OPSET
 from planformer.export.onnx import Exported
 from planformer.files import whole_file
 from planformer.models.next_ks import NextNetwork
-from planformer.models.next_ks_storage import load_next
+from planformer.models.storage import load_next
 
 TOLERANCE = 1e-4
 """Largest difference between ONNX Runtime and PyTorch, in parts of an output's largest number."""

@@ -45,7 +45,7 @@ class Devices:
         self._fabric = _launched(config) if config.devices > 1 else None
         self.rank = self._fabric.global_rank if self._fabric else 0
         self.count = self._fabric.world_size if self._fabric else 1
-        self.device = self._fabric.device if self._fabric else _usable(config.device)
+        self.device = self._fabric.device if self._fabric else usable_device(config.device)
 
     def __enter__(self) -> Devices:
         return self
@@ -85,7 +85,7 @@ def _launched(config: TrainConfig) -> Fabric:
         from lightning_fabric import Fabric
     except ImportError as error:
         raise MissingExtra("lightning-fabric (for several devices)", "train") from error
-    device = _usable(config.device)
+    device = usable_device(config.device)
     if device.index is not None or device.type not in ("cpu", "cuda"):
         raise InvalidParameter(f"several devices must be 'cpu' or 'cuda'; got {config.device!r}")
     if device.type == "cuda" and config.devices > torch.cuda.device_count():
@@ -97,7 +97,12 @@ def _launched(config: TrainConfig) -> Fabric:
     return fabric
 
 
-def _usable(name: str) -> torch.device:
+def usable_device(name: str) -> torch.device:
+    """A device by its name.
+
+    Raises:
+        InvalidParameter: PyTorch cannot compute on it here.
+    """
     try:
         torch.empty(0, device=name)
     except (RuntimeError, AssertionError) as error:

@@ -14,12 +14,14 @@ import torch
 import torch.nn.functional as F
 from torch import Tensor
 
-from planformer.errors import InvalidParameter, TrainingDiverged
+from planformer.errors import TrainingDiverged
 from planformer.files import remove_unfinished
+from planformer.training.devices import usable_device
+from planformer.training.folder import CHECKPOINT
 from planformer.training.interrupt import GracefulInterrupt
 from planformer.training.mpnet_config import MPNetTrainConfig
 from planformer.training.mpnet_samples import WaypointBatch, WaypointSamples
-from planformer.training.mpnet_state import CHECKPOINT, mpnet_state
+from planformer.training.mpnet_state import mpnet_state
 from planformer.training.sources import PathSource
 
 
@@ -111,7 +113,7 @@ class _Run:
         self, config: MPNetTrainConfig, data: PathSource, validation: PathSource, folder: Path
     ) -> None:
         self.config, self.folder = config, folder
-        self.device = _usable(config.device)
+        self.device = usable_device(config.device)
         self.samples = WaypointSamples(data, config.network.scale)
         self.validation = _spread(WaypointSamples(validation, config.network.scale), config)
         self.state = mpnet_state(folder, config, dataclasses.asdict(data.spec), self.device)
@@ -206,11 +208,3 @@ def _spread(samples: WaypointSamples, config: MPNetTrainConfig) -> list[Waypoint
         samples.draw(maps[first : first + config.maps], config.waypoints, rng, augment=False)
         for first in range(0, count, config.maps)
     ]
-
-
-def _usable(name: str) -> torch.device:
-    try:
-        torch.empty(0, device=name)
-    except (RuntimeError, AssertionError) as error:
-        raise InvalidParameter(f"device {name!r} is not usable: {error}") from error
-    return torch.device(name)

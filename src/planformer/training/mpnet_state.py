@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -12,12 +10,10 @@ import torch
 from torch import optim
 
 from planformer.errors import InvalidWeights, WeightsMismatch
-from planformer.files import whole_file
 from planformer.models.mpnet import MPNet
-from planformer.models.mpnet_storage import load_mpnet, save_mpnet
+from planformer.models.storage import load_mpnet, save_planner
+from planformer.training.folder import CHECKPOINT, write_log
 from planformer.training.mpnet_config import MPNetOptimizer, MPNetTrainConfig
-
-CHECKPOINT, LOG = "checkpoint.pt", "log.csv"
 
 _MAY_CHANGE = {
     "bfloat16",
@@ -58,7 +54,7 @@ class MPNetState:
 
     def save(self, folder: Path, config: MPNetTrainConfig) -> None:
         """Write checkpoint and log; each file is replaced as a whole."""
-        save_mpnet(
+        save_planner(
             folder / CHECKPOINT,
             self.model,
             optimizer=self.optimizer.state_dict(),
@@ -68,9 +64,7 @@ class MPNetState:
             seconds=self.seconds,
             history=self.history,
         )
-        if self.history:
-            with whole_file(folder / LOG) as file:
-                file.write(_csv(self.history))
+        write_log(folder, self.history)
 
 
 def mpnet_state(
@@ -126,13 +120,3 @@ def _placed(model: MPNet, device: torch.device) -> MPNet:
     """Move a network to its device, in the layout whose convolutions are the fastest on a CPU."""
     layout = {"memory_format": torch.channels_last}
     return model.to(device).to(**layout)  # type: ignore[call-overload,no-any-return]
-
-
-def _csv(rows: list[dict[str, float]]) -> bytes:
-    text = io.StringIO()
-    writer = csv.DictWriter(text, fieldnames=list(rows[0]), lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(
-        {k: f"{v:.6g}" if isinstance(v, float) else v for k, v in row.items()} for row in rows
-    )
-    return text.getvalue().encode()

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import csv
 import dataclasses
-import io
 import math
 import time
 from collections.abc import Callable
@@ -19,21 +17,20 @@ from torch import Tensor, nn, optim
 from planformer.baselines.next_ks import DEVIATION
 from planformer.errors import (
     InvalidDataset,
-    InvalidParameter,
     InvalidWeights,
     TrainingDiverged,
     WeightsMismatch,
 )
-from planformer.files import remove_unfinished, whole_file
+from planformer.files import remove_unfinished
 from planformer.models.next_ks import NextNetwork
-from planformer.models.next_ks_storage import load_next, save_next
+from planformer.models.storage import load_next, save_planner
 from planformer.training.augmentation import augment
+from planformer.training.devices import usable_device
+from planformer.training.folder import CHECKPOINT, write_log
 from planformer.training.interrupt import GracefulInterrupt
 from planformer.training.next_ks_config import NextTrainConfig
 from planformer.training.next_ks_samples import Lessons, make_lessons, searched_paths
 from planformer.training.sources import PathSource, load_example
-
-CHECKPOINT, LOG = "checkpoint.pt", "log.csv"
 
 _MAX_GRADIENT_NORM = 1.0
 _EXPLORATION = (1.0, 0.1)
@@ -168,7 +165,7 @@ class _Run:
         _check_fits(data, config.problems)
         _check_fits(validation, 1)
         self.config, self.data, self.folder = config, data, folder
-        self.device = _usable(config.device)
+        self.device = usable_device(config.device)
         self.description = dataclasses.asdict(data.spec)
         self.validation = _validation_lessons(validation, config)
         self.state = self._state()
@@ -310,7 +307,7 @@ class _Run:
 
     def _save(self) -> None:
         state = self.state
-        save_next(
+        save_planner(
             self.folder / CHECKPOINT,
             state.model,
             optimizer=state.optimizer.state_dict(),
@@ -320,9 +317,7 @@ class _Run:
             seconds=state.seconds,
             history=state.history,
         )
-        if state.history:
-            with whole_file(self.folder / LOG) as file:
-                file.write(_csv(state.history))
+        write_log(self.folder, state.history)
 
 
 def _loss(step_error: Tensor, value_error: Tensor) -> Tensor:
@@ -348,21 +343,3 @@ def _validation_lessons(source: PathSource, config: NextTrainConfig) -> list[Les
         make_lessons(batch, [[e.path] for e in batch], config.network.side, config.states, rng)
         for batch in batches
     ]
-
-
-def _usable(name: str) -> torch.device:
-    try:
-        torch.empty(0, device=name)
-    except (RuntimeError, AssertionError) as error:
-        raise InvalidParameter(f"device {name!r} is not usable: {error}") from error
-    return torch.device(name)
-
-
-def _csv(rows: list[dict[str, float]]) -> bytes:
-    text = io.StringIO()
-    writer = csv.DictWriter(text, fieldnames=list(rows[0]), lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(
-        {k: f"{v:.6g}" if isinstance(v, float) else v for k, v in row.items()} for row in rows
-    )
-    return text.getvalue().encode()

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -13,7 +11,6 @@ import torch
 from torch import nn, optim
 
 from planformer.errors import InvalidWeights, WeightsMismatch
-from planformer.files import whole_file
 from planformer.models import (
     MPTConfig,
     create_model,
@@ -21,11 +18,9 @@ from planformer.models import (
     save_checkpoint,
 )
 from planformer.training.config import TrainConfig
+from planformer.training.folder import CHECKPOINT, write_log
 from planformer.training.optimizer import create_optimizer
 from planformer.training.validation import Metrics
-
-CHECKPOINT = "checkpoint.pt"
-LOG = "log.csv"
 
 _MAY_CHANGE = (
     "bfloat16 checkpoint_seconds device devices initial seconds steps threads "
@@ -77,9 +72,7 @@ class TrainState:
             seconds=self.seconds,
             history=self.history,
         )
-        if self.history:
-            with whole_file(folder / LOG) as file:
-                file.write(_csv(self.history))
+        write_log(folder, self.history)
 
 
 def new_state(
@@ -168,13 +161,3 @@ def _placed(model: nn.Module, device: torch.device) -> nn.Module:
     """Move a network to its device, in the layout whose convolutions are the fastest on a CPU."""
     layout = {"memory_format": torch.channels_last}
     return model.to(device).to(**layout)  # type: ignore[call-overload,no-any-return]
-
-
-def _csv(rows: list[dict[str, Any]]) -> bytes:
-    text = io.StringIO()
-    writer = csv.DictWriter(text, fieldnames=list(rows[0]), lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(
-        {k: f"{v:.6g}" if isinstance(v, float) else v for k, v in row.items()} for row in rows
-    )
-    return text.getvalue().encode()

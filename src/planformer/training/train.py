@@ -18,13 +18,13 @@ from planformer.files import remove_unfinished
 from planformer.models import MPTConfig
 from planformer.training.config import Recipe, TrainConfig
 from planformer.training.devices import Devices
+from planformer.training.folder import CHECKPOINT
 from planformer.training.interrupt import GracefulInterrupt
 from planformer.training.losses import imitation_loss, proposal_loss
 from planformer.training.optimizer import learning_rate
 from planformer.training.samples import Batch, training_batches
 from planformer.training.sources import PathSource
 from planformer.training.state import (
-    CHECKPOINT,
     TrainState,
     load_teacher,
     new_state,
