@@ -32,7 +32,7 @@ class LearnedPlanner(Protocol):
 
 
 _PLANNERS: dict[str, tuple[str, Callable[[str], LearnedPlanner]]] = {
-    "MPNet": ("mpnet.forest_maze", lambda path: MPNetPlanner(load_mpnet(path))),
+    "MPNet": ("mpnet.forest_maze_indoor", lambda path: MPNetPlanner(load_mpnet(path))),
     "NEXT-KS": ("next_ks.forest_maze", lambda path: NextPlanner(load_next(path))),
 }
 """Name of the weights and what makes the planner of their file."""

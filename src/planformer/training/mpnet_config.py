@@ -51,10 +51,10 @@ class MPNetTrainConfig:
     network: MPNetConfig = field(default_factory=MPNetConfig)
     steps: int | None = None
     seconds: float | None = None
-    maps: int = 8
+    maps: int = 4
     waypoints: int = 128
     optimizer: MPNetOptimizer = MPNetOptimizer.ADAM
-    learning_rate: float = 3e-4
+    learning_rate: float = 1e-3
     augment: bool = True
     bfloat16: bool = True
     seed: int = 0

@@ -19,6 +19,7 @@ from planformer.bench.tables.summary import summarise
 
 COLUMNS = {
     "accuracy %": ("accuracy_percent", ".1f"),
+    "any path %": ("found_percent", ".1f"),
     "time s": ("seconds", ".4f"),
     "time s, 90 %": ("seconds_p90", ".4f"),
     "vertices": ("vertices", ",.0f"),

@@ -67,6 +67,7 @@ def _measures(trials: Sequence[Trial], limit: float) -> dict[str, Any]:
     return {
         "problems": len(trials),
         "accuracy_percent": percent_of(solved),
+        "found_percent": percent_of(np.isfinite(ratio)),
         "seconds": median_of(seconds),
         "seconds_p90": interval_of(percentile_90, seconds),
         "vertices": median_of(vertices),
