@@ -15,6 +15,8 @@ namespace {
 
 /// Draws that miss the map or the region are repeated this often before a place inside is taken.
 constexpr int kMaxRedraws = 100;
+/// Share of a point's samples that come from the anchors' own squares.
+constexpr double kLatticeShare = 0.2;
 /// Share of the samples next to start and goal.
 constexpr double kEndShare = 0.2;
 /// Longest of the two arcs to such a sample, in turning radii.
@@ -45,6 +47,10 @@ Pose sample_ellipse(const Region& region, const Pose& centre, double yaw_deviati
 Pose sample_shape(const Region& region, std::size_t index, ompl::RNG& rng) {
     const auto& [dx, dy] = region.offsets[index];
     const Pose& anchor = region.anchors[index];
+    // Squares that lie round a predicted path may leave gaps where a path has to pass.
+    if (!region.has_heading && rng.uniform01() < kLatticeShare) {
+        return sample_square(anchor, region.half_width, rng);
+    }
     const Pose centre{anchor.x + dx, anchor.y + dy, anchor.yaw};
     if (!region.has_heading) return sample_square(centre, region.minor_axis, rng);
     return sample_ellipse(region, centre, region.yaw_deviations[index], rng);

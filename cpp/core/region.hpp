@@ -19,7 +19,7 @@ namespace planformer {
 /// headings it is an ellipse with semi-axes (half_width, minor_axis) turned along the heading, and
 /// the yaw is Gaussian round it (Motion Planning Transformers, section III.B), as widely as the
 /// proposal is unsure of it. A shape may lie beside its anchor; what of it leaves the anchors'
-/// squares of side 2 * half_width is cut off.
+/// squares of side 2 * half_width is cut off. Without headings some samples fill these squares.
 ///
 /// Some samples are poses soon after a car's start or shortly before its goal: in a tight place
 /// hardly any others join a tree to the goal, and one heading an anchor cannot tell how a car turns

@@ -22,9 +22,9 @@ class SamplingRegion:
 
     Without headings the shapes are squares and a car's yaw is uniform; with headings they are
     ellipses along them (Motion Planning Transformers, section III.B). Shapes with an offset from
-    their anchors are cut off where the anchors' squares end; squares then have half the side. With
-    headings some samples are poses soon after the start or shortly before the goal, because a car
-    often has to turn about there.
+    their anchors are cut off where the anchors' squares end; squares then have half the side, but a
+    fifth of the samples still fill the anchors' own. With headings some samples are poses soon
+    after the start or shortly before the goal, because a car often has to turn about there.
 
     Attributes:
         anchors: (K, 2) float64 anchor points in metres, K >= 1.
