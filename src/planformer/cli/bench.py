@@ -244,7 +244,7 @@ def pages_command(
 ) -> None:
     """Put results into pages, between <!-- table1:begin --> and <!-- table1:end -->.
 
-    Blocks are table1 to table5, accuracy-point, -maze, -car and -real; table1-short and
+    Blocks are table1 to table5, accuracy-point, -corridor, -maze, -car and -real; table1-short and
     accuracy-short are shorter.
 
     Example: planformer bench pages README.md docs/accuracy.md docs/results.md

@@ -2,7 +2,7 @@
 
 table1          a table beside the paper's, with intervals, environment, figures; also table2, ...
 table1-short    accuracy and medians beside the paper's, without intervals; also table2-short, ...
-accuracy-point  the accuracy of regions for a point robot; also -maze, -car and -real
+accuracy-point  the accuracy of regions for a point robot; also -corridor, -maze, -car, -real
 accuracy-short  the accuracy of all rows: solved with intervals, and shares of the map
 """
 
@@ -23,7 +23,7 @@ from planformer.bench.tables.figures import LETTER_VALUES, SOLVED
 from planformer.errors import InvalidResults
 
 NOT_MEASURED = "not measured yet"
-_ACCURACY = ("point", "maze", "car", "real")
+_ACCURACY = ("corridor", "maze", "point", "car", "real")
 """Folders of the accuracy's results; where two have the same row, the later one counts."""
 
 _FIGURES = {
