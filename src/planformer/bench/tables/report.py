@@ -138,9 +138,13 @@ def markdown(summary: Mapping[str, Any]) -> str:
 
 
 def short_markdown(summary: Mapping[str, Any]) -> str:
-    """A Markdown table for each row with the columns of `SHORT` alone, without intervals."""
+    """A Markdown table for each row with the columns of `SHORT` alone, without intervals.
+
+    Systems that were not run are left out.
+    """
     columns = {name: COLUMNS[name] for name in SHORT}
-    return "\n".join(_tables(summary["lines"], columns, intervals=False))
+    lines = [line for line in summary["lines"] if line["run"]]
+    return "\n".join(_tables(lines, columns, intervals=False))
 
 
 def table_cells(
