@@ -132,8 +132,10 @@ def test_the_later_result_of_a_row_counts_in_the_overview(page, tmp_path):
 
     rules = ("fixed", "connecting")
     accuracy = tmp_path / "results" / "accuracy"
-    _write(accuracy / "point", [line("mpt", r, 1) for r in rules] + [line("wavefront", "fixed", 1)])
-    _write(accuracy / "maze", [line("mpt", r, 10) for r in rules])
+    corridor = [line("mpt", r, 1) for r in rules] + [line("wavefront", "fixed", 1)]
+    _write(accuracy / "corridor", corridor)
+    _write(accuracy / "maze", [line("mpt", r, 2) for r in rules])
+    _write(accuracy / "point", [line("mpt", r, 10) for r in rules])
     expected = "100.0 % [72.2, 100.0] | 100.0 % [72.2, 100.0] | 50.0 % | 50.0 % | 50.0 % |"
     assert f"| maze 480 x 480 | 10 | {expected}" in page("accuracy-short")
 
