@@ -11,7 +11,8 @@ import torch
 
 from planformer.baselines.next_network import load_next
 from planformer.errors import InvalidWeights
-from planformer.export.next_ks import TOLERANCE, DeployedNext, example_inputs, export_next
+from planformer.export.next_ks import DeployedNext, example_inputs, export_next
+from planformer.export.onnx import TOLERANCE
 from planformer.models.next_ks import NextConfig, NextNetwork
 from planformer.models.storage import save_planner
 

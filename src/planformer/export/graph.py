@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import warnings
+from collections.abc import Mapping, Sequence
 
 import torch
 from torch import Tensor, nn
@@ -72,22 +73,48 @@ def to_onnx(deployed: DeployedProposer, scale: NetworkScale) -> bytes:
     """
     outputs = output_names(scale)
     inputs = example_inputs(scale, 12 * scale.stride, 15 * scale.stride)
+    return translated(
+        deployed,
+        inputs,
+        input_names=[MAP, QUERY],
+        output_names=outputs,
+        dynamic_axes={
+            name: {0: "batch", 2: f"{name}_height", 3: f"{name}_width"}
+            for name in (MAP, QUERY, *outputs)
+        },
+    )
+
+
+def translated(
+    module: nn.Module,
+    inputs: tuple[Tensor, ...],
+    *,
+    input_names: Sequence[str],
+    output_names: Sequence[str],
+    dynamic_axes: Mapping[str, Mapping[int, str]],
+) -> bytes:
+    """The serialised ONNX model of a module.
+
+    Args:
+        module: The module on the CPU.
+        inputs: Example inputs.
+        input_names: Their names.
+        output_names: Names of the outputs.
+        dynamic_axes: Axes of inputs and outputs whose size may be another, by name.
+    """
     file = io.BytesIO()
     with warnings.catch_warnings():
         # PyTorch's newer exporter needs onnxscript; the older one says that it is old.
         warnings.simplefilter("ignore", DeprecationWarning)
         warnings.simplefilter("ignore", torch.jit.TracerWarning)  # type: ignore[attr-defined]
         torch.onnx.export(
-            deployed.eval(),  # the export restores this mode, of all parts
+            module.eval(),  # the export restores this mode, of all parts
             inputs,
             file,  # type: ignore[arg-type]  # declared for paths, made for files too
             dynamo=False,
             opset_version=OPSET,
-            input_names=[MAP, QUERY],
-            output_names=outputs,
-            dynamic_axes={
-                name: {0: "batch", 2: f"{name}_height", 3: f"{name}_width"}
-                for name in (MAP, QUERY, *outputs)
-            },
+            input_names=list(input_names),
+            output_names=list(output_names),
+            dynamic_axes=dynamic_axes,
         )
     return file.getvalue()

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import io
-import warnings
 from pathlib import Path
 from typing import Any
 
@@ -11,16 +9,11 @@ import numpy as np
 import torch
 from torch import Tensor, nn
 
-from planformer.errors import InvalidWeights, MissingExtra
-from planformer.export.card import write_card
-from planformer.export.graph import OPSET
-from planformer.export.onnx import Exported
-from planformer.files import whole_file
+from planformer.errors import MissingExtra
+from planformer.export.graph import translated
+from planformer.export.onnx import Exported, onnx_file, write_weights
 from planformer.models.mpnet import MPNet
 from planformer.models.storage import load_mpnet
-
-TOLERANCE = 1e-4
-"""Largest difference of an output between ONNX Runtime and PyTorch."""
 
 CHECKED_SIZES = ((480, 480), (240, 365), (1, 1), (20, 90))
 """Map sizes (H, W) in pixels at which both are compared."""
@@ -80,9 +73,7 @@ def export_mpnet(checkpoint: str | Path, path: str | Path, *, name: str | None =
         InvalidWeights: The checkpoint is damaged, or the exported network differs.
         MissingExtra: onnx or ONNX Runtime is not installed.
     """
-    path = Path(path)
-    if path.suffix != ".onnx":
-        raise InvalidWeights(f"weights are exported to a file named *.onnx; got {path}")
+    path = onnx_file(path)
     network, stored = load_mpnet(Path(checkpoint))
     for parameter in network.parameters():
         if parameter.numel() >= _LARGE:
@@ -93,15 +84,7 @@ def export_mpnet(checkpoint: str | Path, path: str | Path, *, name: str | None =
         difference = largest_difference(content, deployed)
     except ModuleNotFoundError as error:
         raise MissingExtra(error.name or "onnx", "train") from error
-    if not difference <= TOLERANCE:
-        raise InvalidWeights(
-            f"the exported network differs from PyTorch's by {difference:.2g}; at most "
-            f"{TOLERANCE} is allowed"
-        )
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with whole_file(path) as file:
-        file.write(content)
-    return Exported(path, write_card(path, name or path.stem, _facts(network, stored)), difference)
+    return write_weights(path, content, difference, name, _facts(network, stored))
 
 
 def to_onnx(deployed: DeployedMPNet) -> bytes:
@@ -114,26 +97,18 @@ def to_onnx(deployed: DeployedMPNet) -> bytes:
         The serialised model; inputs "map", "latent", "current", "goal" and "noise", outputs
         "encoding" and "waypoint".
     """
-    file = io.BytesIO()
-    with warnings.catch_warnings():
-        # PyTorch's newer exporter needs onnxscript; the older one says that it is old.
-        warnings.simplefilter("ignore", DeprecationWarning)
-        warnings.simplefilter("ignore", torch.jit.TracerWarning)  # type: ignore[attr-defined]
-        torch.onnx.export(
-            deployed.eval(),  # the export restores this mode, of all parts
-            example_inputs(deployed, 100, 130),
-            file,  # type: ignore[arg-type]  # declared for paths, made for files too
-            dynamo=False,
-            opset_version=OPSET,
-            input_names=list(_INPUTS),
-            output_names=list(_OUTPUTS),
-            dynamic_axes={
-                "map": {0: "maps", 2: "height", 3: "width"},
-                "encoding": {0: "maps"},
-                **{name: {0: "batch"} for name in (*_INPUTS[1:], "waypoint")},
-            },
-        )
-    return _halved(file.getvalue())
+    content = translated(
+        deployed,
+        example_inputs(deployed, 100, 130),
+        input_names=_INPUTS,
+        output_names=_OUTPUTS,
+        dynamic_axes={
+            "map": {0: "maps", 2: "height", 3: "width"},
+            "encoding": {0: "maps"},
+            **{name: {0: "batch"} for name in (*_INPUTS[1:], "waypoint")},
+        },
+    )
+    return _halved(content)
 
 
 def example_inputs(

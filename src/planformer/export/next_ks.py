@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import io
-import warnings
 from pathlib import Path
 from typing import Any
 
@@ -11,16 +9,11 @@ import numpy as np
 import torch
 from torch import Tensor, nn
 
-from planformer.errors import InvalidWeights, MissingExtra
-from planformer.export.card import write_card
-from planformer.export.graph import OPSET
-from planformer.export.onnx import Exported
-from planformer.files import whole_file
+from planformer.errors import MissingExtra
+from planformer.export.graph import translated
+from planformer.export.onnx import Exported, onnx_file, write_weights
 from planformer.models.next_ks import NextNetwork
 from planformer.models.storage import load_next
-
-TOLERANCE = 1e-4
-"""Largest difference between ONNX Runtime and PyTorch, in parts of an output's largest number."""
 
 CHECKED_COUNTS = (1, 10, 32)
 """Numbers of states for which both are compared."""
@@ -74,9 +67,7 @@ def export_next(checkpoint: str | Path, path: str | Path, *, name: str | None = 
         InvalidWeights: The checkpoint is damaged, or the exported network differs.
         MissingExtra: onnx or ONNX Runtime is not installed.
     """
-    path = Path(path)
-    if path.suffix != ".onnx":
-        raise InvalidWeights(f"weights are exported to a file named *.onnx; got {path}")
+    path = onnx_file(path)
     network, stored = load_next(Path(checkpoint))
     deployed = DeployedNext(network).eval()
     try:
@@ -84,15 +75,7 @@ def export_next(checkpoint: str | Path, path: str | Path, *, name: str | None = 
         difference = largest_difference(content, deployed)
     except ModuleNotFoundError as error:
         raise MissingExtra(error.name or "onnx", "train") from error
-    if not difference <= TOLERANCE:
-        raise InvalidWeights(
-            f"the exported network differs from PyTorch's by {difference:.2g}; at most "
-            f"{TOLERANCE} is allowed"
-        )
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with whole_file(path) as file:
-        file.write(content)
-    return Exported(path, write_card(path, name or path.stem, _facts(network, stored)), difference)
+    return write_weights(path, content, difference, name, _facts(network, stored))
 
 
 def to_onnx(deployed: DeployedNext) -> bytes:
@@ -105,26 +88,17 @@ def to_onnx(deployed: DeployedNext) -> bytes:
         The serialised model; inputs "free", "goal", "context" and "states", outputs "plan", the
         context of later evaluations, "mean" and "value".
     """
-    file = io.BytesIO()
-    with warnings.catch_warnings():
-        # PyTorch's newer exporter needs onnxscript; the older one says that it is old.
-        warnings.simplefilter("ignore", DeprecationWarning)
-        warnings.simplefilter("ignore", torch.jit.TracerWarning)  # type: ignore[attr-defined]
-        torch.onnx.export(
-            deployed.eval(),  # the export restores this mode, of all parts
-            example_inputs(deployed, 10),
-            file,  # type: ignore[arg-type]  # declared for paths, made for files too
-            dynamo=False,
-            opset_version=OPSET,
-            input_names=list(_INPUTS),
-            output_names=list(_OUTPUTS),
-            dynamic_axes={
-                "free": {1: "rows", 2: "columns"},
-                **{name: {2: f"{name}_rows", 3: f"{name}_columns"} for name in ("context", "plan")},
-                **{name: {1: "count"} for name in ("states", "mean", "value")},
-            },
-        )
-    return file.getvalue()
+    return translated(
+        deployed,
+        example_inputs(deployed, 10),
+        input_names=_INPUTS,
+        output_names=_OUTPUTS,
+        dynamic_axes={
+            "free": {1: "rows", 2: "columns"},
+            **{name: {2: f"{name}_rows", 3: f"{name}_columns"} for name in ("context", "plan")},
+            **{name: {1: "count"} for name in ("states", "mean", "value")},
+        },
+    )
 
 
 def example_inputs(deployed: DeployedNext, count: int, *, seed: int = 0) -> tuple[Tensor, ...]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -17,8 +18,8 @@ from planformer.files import whole_file
 from planformer.models import load_checkpoint
 
 TOLERANCE = 1e-4
-"""Largest difference of a probability, or a component of a heading or an offset, between ONNX
-Runtime and PyTorch."""
+"""Largest difference between ONNX Runtime and PyTorch: of a probability, a component of a heading
+or an offset, or a planner's output in parts of its largest number."""
 
 CHECKED_SIZES = ((480, 480), (240, 360), (360, 240), (780, 780), (20, 40))
 """Map sizes (H, W) in pixels at which both are compared."""
@@ -57,9 +58,7 @@ def export(checkpoint: str | Path, path: str | Path, *, name: str | None = None)
         InvalidWeights: The checkpoint is damaged, or the exported network differs.
         MissingExtra: onnx or ONNX Runtime is not installed.
     """
-    path = Path(path)
-    if path.suffix != ".onnx":
-        raise InvalidWeights(f"weights are exported to a file named *.onnx; got {path}")
+    path = onnx_file(path)
     network, model, stored = load_checkpoint(Path(checkpoint))
     deployed = DeployedProposer(model).eval()
     try:
@@ -67,6 +66,41 @@ def export(checkpoint: str | Path, path: str | Path, *, name: str | None = None)
         difference = largest_difference(content, deployed, network.scale)
     except ModuleNotFoundError as error:
         raise MissingExtra(error.name or "onnx", "train") from error
+    facts = proposer_facts(
+        network,
+        training={key: stored.get(key) for key in ("training", "data", "step", "seconds")},
+        accuracy=_last_metrics(stored.get("history", [])),
+    )
+    return write_weights(path, content, difference, name, facts)
+
+
+def onnx_file(path: str | Path) -> Path:
+    """The file to export to.
+
+    Raises:
+        InvalidWeights: Its name does not end in .onnx.
+    """
+    path = Path(path)
+    if path.suffix != ".onnx":
+        raise InvalidWeights(f"weights are exported to a file named *.onnx; got {path}")
+    return path
+
+
+def write_weights(
+    path: Path, content: bytes, difference: float, name: str | None, facts: Mapping[str, Any]
+) -> Exported:
+    """Write an exported network and its card, each as a whole.
+
+    Args:
+        path: The .onnx file to write, its folder is created; the card takes its name.
+        content: The serialised ONNX model.
+        difference: Largest difference between ONNX Runtime and PyTorch.
+        name: Name of the weights; by default the file's.
+        facts: What the card says of the network.
+
+    Raises:
+        InvalidWeights: The difference exceeds `TOLERANCE`; nothing is written.
+    """
     if not difference <= TOLERANCE:
         raise InvalidWeights(
             f"the exported network differs from PyTorch's by {difference:.2g}; at most "
@@ -75,13 +109,7 @@ def export(checkpoint: str | Path, path: str | Path, *, name: str | None = None)
     path.parent.mkdir(parents=True, exist_ok=True)
     with whole_file(path) as file:
         file.write(content)
-    facts = proposer_facts(
-        network,
-        training={key: stored.get(key) for key in ("training", "data", "step", "seconds")},
-        accuracy=_last_metrics(stored.get("history", [])),
-    )
-    card = write_card(path, name or path.stem, facts)
-    return Exported(path, card, difference)
+    return Exported(path, write_card(path, name or path.stem, facts), difference)
 
 
 def largest_difference(content: bytes, deployed: DeployedProposer, scale: NetworkScale) -> float:
