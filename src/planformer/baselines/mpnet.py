@@ -13,7 +13,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from numbers import Integral
 from typing import TypeAlias
 
 import numpy as np
@@ -33,6 +32,7 @@ from planformer.planning import (
     path_is_valid,
     search,
 )
+from planformer.planning.search import checked_seed
 
 _States: TypeAlias = NDArray[np.float64]
 """(N, 2) or (2,) in metres, in the world frame: start and goal stay what the caller gave."""
@@ -101,8 +101,6 @@ class MPNetPlanner:
             raise UnknownPlanner(
                 f"MPNet plans for a PointRobot; got a {type(problem.robot).__name__}"
             )
-        if seed is not None and not (isinstance(seed, Integral) and 0 <= seed < 2**32):
-            raise InvalidParameter(f"seed must be whole, between 0 and 2**32 - 1; got {seed}")
         return _Query(self, problem, limits or SearchLimits(), seed, cancel).answer()
 
 
@@ -126,7 +124,7 @@ class _Query:
         self.started = time.perf_counter()
         self.planner, self.problem, self.limits = planner, problem, limits
         self.cancel = cancel
-        self.rng = np.random.default_rng(seed)
+        self.rng = np.random.default_rng(checked_seed(seed))
         self.vertices = 0
         self.best, self.best_length = np.empty((0, 2)), math.inf
 

@@ -11,7 +11,6 @@ import math
 import time
 from dataclasses import dataclass
 from functools import cached_property
-from numbers import Integral
 from typing import Any
 
 import numpy as np
@@ -34,6 +33,7 @@ from planformer.planning import (
     is_connected,
     path_is_valid,
 )
+from planformer.planning.search import checked_seed
 
 STEP = 0.05
 """Length of a step, and how near a state sees the goal: coordinates go from -1 to 1."""
@@ -107,8 +107,6 @@ class NextPlanner:
             raise UnknownPlanner(
                 f"NEXT-KS plans for a PointRobot; got a {type(problem.robot).__name__}"
             )
-        if seed is not None and not (isinstance(seed, Integral) and 0 <= seed < 2**32):
-            raise InvalidParameter(f"seed must be whole, between 0 and 2**32 - 1; got {seed}")
         query = _Query(self, problem, limits or SearchLimits(), seed, cancel)
         return query.answer(keep_tree=keep_tree)
 
@@ -127,7 +125,7 @@ class _Query:
         self.started = time.perf_counter()
         self.planner, self.problem, self.limits = planner, problem, limits
         self.cancel = cancel
-        self.rng = np.random.default_rng(seed)
+        self.rng = np.random.default_rng(checked_seed(seed))
         self.goal = problem.local_goal[:2]
         self.side = square_side(problem.blocked, problem.grid.resolution)
         self.step = 0.5 * STEP * self.side

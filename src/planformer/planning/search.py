@@ -122,7 +122,7 @@ def search(
         region=None if region is None else _core_region(region, problem),
         exploration=exploration,
         limits=_core.Limits(limits.seconds, limits.target_length, limits.max_vertices),
-        seed=_checked_seed(seed),
+        seed=checked_seed(seed),
         keep_tree=keep_tree,
         cancellation=cancel,
     )
@@ -183,7 +183,12 @@ def _core_region(region: SamplingRegion, problem: Problem) -> _core.Region:
     )
 
 
-def _checked_seed(seed: int | None) -> int:
+def checked_seed(seed: int | None) -> int:
+    """A seed, drawn where there is none.
+
+    Raises:
+        InvalidParameter: It is no whole number from 0 to 2**32 - 1.
+    """
     if seed is None:
         return int(np.random.default_rng().integers(1, 2**32))
     if not (isinstance(seed, Integral) and 0 <= seed < 2**32):
