@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from planformer.encoding.scale import NetworkScale
 from planformer.errors import InvalidParameter
-from planformer.geometry import offset_to_polyline
+from planformer.geometry import distance_to_polyline, offset_to_polyline
 
 LABEL_DISTANCE = 0.7
 """Anchors no farther than this from the path, in metres, are positive (as in the paper's code)."""
+
+_PIECE = 2.0
+"""Metres of a path that are compared with the anchors at once."""
 
 _SPACING = 0.1
 """Metres between the points of a path whose headings are averaged."""
@@ -46,13 +51,35 @@ def anchor_labels(anchors: NDArray[np.float64], path: ArrayLike) -> NDArray[np.b
     """Mark the anchors near a path.
 
     Args:
-        anchors: (h, w, 2) points in metres.
+        anchors: (h, w, 2) points in metres, a lattice as that of `anchor_points`.
         path: (N, 2) or (N, 3) path in metres; yaw does not count.
 
     Returns:
         (h, w) bool, True within 0.7 m of the path.
     """
-    return np.asarray(np.linalg.norm(anchor_offsets(anchors, path), axis=-1) <= LABEL_DISTANCE)
+    x, y = anchors[0, :, 0], anchors[:, 0, 1]
+    labels = np.zeros(anchors.shape[:2], bool)
+    for piece in _short_pieces(np.asarray(path, dtype=np.float64)[:, :2]):
+        # A U-Net has an anchor in each pixel: only those round the piece are looked at.
+        near = np.s_[_within(y, piece[:, 1]), _within(x, piece[:, 0])]
+        distance = distance_to_polyline(anchors[near], piece)
+        labels[near] |= distance.reshape(labels[near].shape) <= LABEL_DISTANCE
+    return labels
+
+
+def _short_pieces(path: NDArray[np.float64]) -> list[NDArray[np.float64]]:
+    """A path cut at some of its vertices, into pieces of two metres or of one segment."""
+    along = np.hypot(*np.diff(path, axis=0).T).cumsum()
+    cuts = np.flatnonzero(np.diff(along // _PIECE)) + 1
+    ends = [0, *cuts.tolist(), max(len(path) - 1, 0)]
+    return [path[first : last + 1] for first, last in pairwise(ends)]
+
+
+def _within(axis: NDArray[np.float64], values: NDArray[np.float64]) -> slice:
+    """Where an ascending axis is within the label distance of some values."""
+    first = np.searchsorted(axis, values.min() - LABEL_DISTANCE, side="left")
+    last = np.searchsorted(axis, values.max() + LABEL_DISTANCE, side="right")
+    return slice(int(first), int(last))
 
 
 def anchor_headings(anchors: NDArray[np.float64], path: ArrayLike) -> NDArray[np.float32]:

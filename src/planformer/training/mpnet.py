@@ -174,8 +174,7 @@ class _Run:
             (len(batch.current), network.units), generator=torch.Generator().manual_seed(seed)
         )
         with torch.autocast(self.device.type, torch.bfloat16, enabled=self.config.bfloat16):
-            # One by one: maps may be of several sizes.
-            latents = torch.cat([model.encode(pixels.float()) for pixels in batch.maps])
+            latents = torch.cat([model.encode(pixels.float()) for pixels in _stacked(batch.maps)])
             latent = latents.repeat_interleave(len(batch.current) // len(batch.maps), dim=0)
             predicted = model(latent, batch.current, batch.goal, noise.to(self.device))
         return F.mse_loss(predicted.float(), batch.target)
@@ -196,6 +195,11 @@ class _Run:
             step=step,
             learning_rate=rate,
         )
+
+
+def _stacked(maps: list[Tensor]) -> list[Tensor]:
+    """Maps of one size at once, others one by one."""
+    return [torch.cat(maps)] if len({pixels.shape for pixels in maps}) == 1 else maps
 
 
 def _spread(samples: WaypointSamples, config: MPNetTrainConfig) -> list[WaypointBatch]:

@@ -13,9 +13,9 @@ from torch import Tensor
 from torch.utils.data import DataLoader, Dataset
 
 from planformer.encoding import (
-    LABEL_DISTANCE,
     NetworkScale,
     anchor_headings,
+    anchor_labels,
     anchor_offsets,
     anchor_points,
     encode_query,
@@ -74,17 +74,11 @@ def encode_examples(examples: Sequence[Example], scale: NetworkScale) -> Batch:
         query = encode_query(padded, example.start, example.goal, scale)
         inside = np.zeros(anchors.shape[:2], np.float32)
         inside[: pixels.shape[0] // scale.stride, : pixels.shape[1] // scale.stride] = 1.0
-        way = anchor_offsets(anchors, example.path)
-        positive = inside * _labels(way)
+        positive = inside * anchor_labels(anchors, example.path)
         heading = inside * _headings(anchors, example.path, scale)
-        offset = inside * _offsets(way, scale)
+        offset = inside * _offsets(anchors, example.path, scale)
         rows.append((padded[None], query, positive[None], heading, offset, inside[None]))
     return Batch(*(torch.from_numpy(np.stack(column)) for column in zip(*rows, strict=True)))
-
-
-def _labels(way: NDArray[np.float64]) -> NDArray[np.float32]:
-    """(h, w) labels, 0 or 1, of anchors whose way to the path is known."""
-    return np.asarray(np.linalg.norm(way, axis=-1) <= LABEL_DISTANCE, np.float32)
 
 
 def _headings(
@@ -96,10 +90,13 @@ def _headings(
     return np.empty((0, *anchors.shape[:2]), np.float32)
 
 
-def _offsets(way: NDArray[np.float64], scale: NetworkScale) -> NDArray[np.float32]:
+def _offsets(
+    anchors: NDArray[np.float64], path: NDArray[np.float64], scale: NetworkScale
+) -> NDArray[np.float32]:
     """(2, h, w) labels of a network with offsets; (0, h, w) otherwise."""
-    count = 2 if scale.offsets else 0
-    return np.moveaxis(way, -1, 0)[:count].astype(np.float32)
+    if scale.offsets:
+        return np.moveaxis(anchor_offsets(anchors, path), -1, 0).astype(np.float32)
+    return np.empty((0, *anchors.shape[:2]), np.float32)
 
 
 class Samples(Dataset[Example]):
