@@ -13,7 +13,7 @@ from planformer.baselines.next_network import load_next
 from planformer.errors import UnknownPlanner
 from planformer.planning import CancelToken, PlanResult, Problem, SearchLimits
 from planformer.robots import PointRobot, Robot
-from planformer.weights import SHIPPED
+from planformer.weights import SHIPPED, Weights, read_weights
 
 
 class LearnedPlanner(Protocol):
@@ -39,10 +39,8 @@ _PLANNERS: dict[str, tuple[str, Callable[[str], LearnedPlanner]]] = {
 
 
 def learned_planner_names(robot: Robot) -> list[str]:
-    """Names of the learned planners for a robot whose weights are there."""
-    if not isinstance(robot, PointRobot):
-        return []
-    return [name for name in _PLANNERS if _file(name).is_file()]
+    """Names of the learned planners for a robot."""
+    return list(_PLANNERS) if isinstance(robot, PointRobot) else []
 
 
 def load_planner(name: str) -> LearnedPlanner:
@@ -55,6 +53,15 @@ def load_planner(name: str) -> LearnedPlanner:
     if name not in _PLANNERS:
         raise UnknownPlanner(f"unknown learned planner {name!r}; valid: {', '.join(_PLANNERS)}")
     return _PLANNERS[name][1](str(_file(name)))
+
+
+def planner_weights(name: str) -> Weights:
+    """Weights of a learned planner by name.
+
+    Raises:
+        InvalidWeights: They are missing or damaged.
+    """
+    return read_weights(_file(name))
 
 
 def _file(name: str) -> Path:

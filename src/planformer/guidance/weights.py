@@ -8,8 +8,15 @@ from planformer.encoding import NetworkScale
 from planformer.errors import InvalidParameter, InvalidWeights, UnknownGuide
 from planformer.weights import SHIPPED, Weights
 
-ALIASES = {"mpt": "mpt_small.forest_maze_indoor", "mpt-dubins": "mpt_dubins.forest_indoor"}
-"""Short names for the recommended weights."""
+ALIASES = {
+    "mpt": "mpt_small.forest_maze_indoor",
+    "mpt-dubins": "mpt_dubins.forest_indoor",
+    "mpt-paper": "mpt_paper_small.forest_maze_indoor",
+    "mpt-paper-fixed-encoding": "mpt_paper_small_fixed_encoding.forest_maze_indoor",
+    "unet": "unet_small.forest_maze_indoor",
+}
+"""Short names of weights: the recommended ones for a point robot and a car, then those of the
+paper's architectures, which the tables compare with."""
 
 
 def guide_names() -> list[str]:

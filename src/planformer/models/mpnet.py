@@ -119,8 +119,6 @@ class MPNet(nn.Module):
             ]
         self.convolutions = nn.Sequential(*layers)
         self.latent = nn.Linear(config.channels[-1] * config.grid**2, config.latent)
-        # Of the size of the states that it stands beside: the map is ignored otherwise.
-        self.normalise = nn.LayerNorm(config.latent)
         self.hidden = nn.ModuleList(
             nn.Linear(before, after)
             for before, after in pairwise((config.latent + 4, *config.widths))
@@ -139,7 +137,7 @@ class MPNet(nn.Module):
         """
         # The convolutions pad with zeros: what lies beyond the map is not free.
         features = _area_pooled(self.convolutions(1.0 - occupancy), self.config.grid)
-        latent: Tensor = self.normalise(self.latent(features.flatten(1)))
+        latent: Tensor = self.latent(features.flatten(1))
         return latent
 
     def forward(self, latent: Tensor, current: Tensor, goal: Tensor, noise: Tensor) -> Tensor:

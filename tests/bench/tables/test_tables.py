@@ -7,10 +7,14 @@ import pytest
 
 from planformer.bench.tables import TableSettings, run_table
 from planformer.bench.tables.measure import lost_trials, measure_problem
-from planformer.bench.tables.record import NO_WEIGHTS
-from planformer.bench.tables.report import PAPER, markdown
+from planformer.bench.tables.report import PAPER
 from planformer.bench.tables.summary import summarise
-from planformer.bench.tables.systems import CAR_SYSTEMS, POINT_SYSTEMS, GridSearch
+from planformer.bench.tables.systems import (
+    CAR_SYSTEMS,
+    POINT_SYSTEMS,
+    GridSearch,
+    fingerprints,
+)
 from planformer.errors import InvalidParameter, InvalidResults
 
 QUICK = TableSettings(slack=1.05, seconds=60.0, systems=("MPT-RRT*", "BIT*", "Lazy Theta*"))
@@ -34,15 +38,6 @@ def test_a_cars_systems(car_row):
     assert [t.system for t in trials] == ["MPT-RRT*", "Corridor-RRT*", "Hybrid-A*"]
     assert trials[2].solved
     assert math.isfinite(trials[2].length)
-
-
-def test_systems_without_weights_are_told_and_not_dropped(small_row):
-    settings = dataclasses.replace(QUICK, systems=("UNet-RRT*",))
-    (found,) = measure_problem(settings, (small_row, 0))
-    assert (found.cause, found.was_run, found.solved) == (NO_WEIGHTS, False, False)
-    (line,) = summarise([found], [small_row], 2.0)
-    assert not line["run"]
-    assert f"not run: {NO_WEIGHTS}" in markdown({"lines": [line], "sessions": []})
 
 
 def test_a_system_that_fails_is_a_counted_failure(small_row, monkeypatch):
@@ -148,3 +143,11 @@ def test_the_papers_names_are_those_of_systems():
     for row, known in PAPER.items():
         systems = CAR_SYSTEMS if row.startswith("dubins") else POINT_SYSTEMS
         assert known.keys() <= systems.keys()
+
+
+def test_results_tell_the_weights_of_guides_and_learned_planners():
+    prints = fingerprints(POINT_SYSTEMS.values())
+    assert {*prints} == {"MPNet", "NEXT-KS", "mpt", "mpt-paper", "mpt-paper-fixed-encoding", "unet"}
+    assert len(set(prints.values())) == len(prints)
+    assert {*fingerprints(CAR_SYSTEMS.values())} == {"mpt-dubins"}
+    assert fingerprints([POINT_SYSTEMS["RRT*"], POINT_SYSTEMS["Corridor-RRT*"]]) == {}

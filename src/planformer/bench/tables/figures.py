@@ -26,6 +26,7 @@ _UNGUIDED = "#7d858f"
 _COLOURS = {
     "MPT": "#0173b2",
     "MPT (F.E.)": "#56b4e9",
+    "MPT (S.E.)": "#a6cee3",
     "UNet": "#de8f05",
     "Corridor": "#029e73",
     "MPNet": "#ca9161",
@@ -93,11 +94,10 @@ def figures(trials: Sequence[Trial], limit: float) -> dict[str, Figure]:
 
 
 def outcomes(trials: Sequence[Trial], limit: float) -> list[Outcomes]:
-    """What each system achieved that was run, in the order of the table."""
-    ran = [trial for trial in trials if trial.was_run]
+    """What each system achieved, in the order of the table."""
     return [
-        _outcomes([trial for trial in ran if trial.system == system], limit)
-        for system in dict.fromkeys(trial.system for trial in ran)
+        _outcomes([trial for trial in trials if trial.system == system], limit)
+        for system in dict.fromkeys(trial.system for trial in trials)
     ]
 
 
@@ -116,10 +116,11 @@ def _outcomes(trials: Sequence[Trial], limit: float) -> Outcomes:
 
 def _parts(system: str) -> tuple[str, str]:
     """Guide and planner of a system; both are the whole name where it has no guide."""
-    bare = system.removesuffix(" (F.E.)")
-    fixed = system[len(bare) :]
+    bare, _, encoding = system.partition(" (")  # F.E.) or S.E.)
     guide, dash, planner = bare.partition("-")
-    return (guide + fixed, planner) if dash and guide in _COLOURS else (bare, bare)
+    if not dash or guide not in _COLOURS:
+        return bare, bare
+    return f"{guide} ({encoding}" if encoding else guide, planner
 
 
 def _limit(folder: Path) -> float:

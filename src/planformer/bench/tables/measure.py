@@ -16,7 +16,7 @@ import numpy as np
 from planformer.bench.problems import ROUNDS, BenchProblem, make_problem
 from planformer.bench.rows import Row
 from planformer.bench.running import FAILURES, Job
-from planformer.bench.tables.record import NO_WEIGHTS, Trial
+from planformer.bench.tables.record import Trial
 from planformer.bench.tables.systems import CAR_SYSTEMS, POINT_SYSTEMS, Solution, System
 from planformer.errors import InvalidParameter
 from planformer.planning import SearchLimits, search
@@ -127,8 +127,6 @@ def _with_reference(known: BenchProblem, settings: TableSettings) -> BenchProble
 
 
 def _run(known: BenchProblem, name: str, system: System) -> tuple[Trial, Solution | None]:
-    if not system.is_available:
-        return _failed(known.row.name, known.index, name, NO_WEIGHTS), None
     limits = SearchLimits(known.row.seconds, known.target_length)
     try:
         solution = system.solve(known.problem, limits, known.seed)

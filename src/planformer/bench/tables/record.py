@@ -4,9 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-NO_WEIGHTS = "no weights"
-"""The cause where a system was not run because its network is not there."""
-
 
 @dataclass(frozen=True)
 class Trial:
@@ -46,8 +43,3 @@ class Trial:
     def seconds(self) -> float:
         """Time of proposal and search."""
         return self.proposal_seconds + self.planning_seconds
-
-    @property
-    def was_run(self) -> bool:
-        """Whether the system was there to be run."""
-        return self.cause != NO_WEIGHTS

@@ -14,7 +14,7 @@ from planformer.bench.reporting import (
 )
 from planformer.bench.rows import Row
 from planformer.bench.store import ResultFolder
-from planformer.bench.tables.record import NO_WEIGHTS, Trial
+from planformer.bench.tables.record import Trial
 from planformer.bench.tables.summary import summarise
 
 COLUMNS = {
@@ -138,21 +138,15 @@ def markdown(summary: Mapping[str, Any]) -> str:
 
 
 def short_markdown(summary: Mapping[str, Any]) -> str:
-    """A Markdown table for each row with the columns of `SHORT` alone, without intervals.
-
-    Systems that were not run are left out.
-    """
+    """A Markdown table for each row with the columns of `SHORT` alone, without intervals."""
     columns = {name: COLUMNS[name] for name in SHORT}
-    lines = [line for line in summary["lines"] if line["run"]]
-    return "\n".join(_tables(lines, columns, intervals=False))
+    return "\n".join(_tables(summary["lines"], columns, intervals=False))
 
 
 def table_cells(
     line: Mapping[str, Any], columns: Mapping[str, tuple[str, str]], *, intervals: bool
 ) -> list[str]:
     """The cells of a line: the system and some of `COLUMNS`."""
-    if not line["run"]:
-        return [line["system"], f"not run: {NO_WEIGHTS}", *[""] * (len(columns) - 1)]
     values = (
         interval_cell(line[measure], style, with_ends=intervals)
         for measure, style in columns.values()
@@ -167,7 +161,7 @@ def _tables(
     paragraphs = []
     for row in dict.fromkeys(line["row"] for line in lines):
         of_row = [line for line in lines if line["row"] == row]
-        problems = max(line.get("problems", 0) for line in of_row)
+        problems = max(line["problems"] for line in of_row)
         header = ["system", *columns, *(_PAPER_COLUMNS if row in PAPER else ())]
         cells = (
             [*table_cells(line, columns, intervals=intervals), *_paper(line)] for line in of_row

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from functools import partial
 from pathlib import Path
@@ -11,17 +11,15 @@ from typing import Any
 
 import planformer
 from planformer.bench.environment import machine
-from planformer.bench.guides import fingerprints
-from planformer.bench.rows import REAL, SCENARIOS, all_rows
+from planformer.bench.rows import REAL, SCENARIOS, Row, all_rows
 from planformer.bench.running import Progress, complete
 from planformer.bench.store import ResultFolder
 from planformer.bench.tables.figures import write_figures
 from planformer.bench.tables.measure import TableSettings, lost_trials, measure_problem
 from planformer.bench.tables.record import Trial
 from planformer.bench.tables.report import write_report
-from planformer.bench.tables.systems import guides
+from planformer.bench.tables.systems import fingerprints
 from planformer.errors import InvalidParameter
-from planformer.guidance import guide_names
 
 TABLES: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
@@ -78,7 +76,7 @@ def run_table(
         raise InvalidParameter(f"{table} needs the folder of the real maps")
     if not any(settings.systems_of(row) for row in rows):
         raise InvalidParameter(f"{table} has none of the systems {settings.systems}")
-    results = ResultFolder(Path(folder), _manifest(table, settings, workers), Trial)
+    results = ResultFolder(Path(folder), _manifest(table, rows, settings, workers), Trial)
     trials = complete(
         results,
         rows,
@@ -89,8 +87,7 @@ def run_table(
         report=report,
     )
     summary = write_report(results, trials, rows, settings.seconds)
-    if any(trial.was_run for trial in trials):
-        write_figures(results.path)
+    write_figures(results.path)
     return summary
 
 
@@ -100,14 +97,16 @@ def _is_of(table: str, row: str, group: str | None) -> bool:
     return group in (REAL, SCENARIOS) if table == "table5" else row in TABLES[table]
 
 
-def _manifest(table: str, settings: TableSettings, workers: int) -> dict[str, Any]:
+def _manifest(
+    table: str, rows: Sequence[Row], settings: TableSettings, workers: int
+) -> dict[str, Any]:
     """All that the trials depend on."""
-    shipped = tuple(name for name in guide_names() if name in guides())
+    systems = {name: its for row in rows for name, its in settings.systems_of(row).items()}
     return {
         "benchmark": table,
         "planformer": planformer.__version__,
         **asdict(settings),
-        "guides": fingerprints(shipped),
+        "weights": fingerprints(systems.values()),
         "workers": workers,
         **machine(),
     }

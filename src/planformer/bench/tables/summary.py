@@ -37,16 +37,14 @@ def summarise(trials: Sequence[Trial], rows: Sequence[Row], limit: float) -> lis
         limit: Limit of the searches in seconds.
 
     Returns:
-        JSON-compatible lines. Intervals are `{"value", "low", "high"}` with 95 % confidence. A
-        system without weights has a line without measures.
+        JSON-compatible lines. Intervals are `{"value", "low", "high"}` with 95 % confidence.
     """
     lines = []
     for row in rows:
         of_row = [trial for trial in trials if trial.row == row.name]
         for system in dict.fromkeys(trial.system for trial in of_row):
             chosen = [trial for trial in of_row if trial.system == system]
-            line: dict[str, Any] = {"row": row.name, "system": system, "run": chosen[0].was_run}
-            lines.append({**line, **(_measures(chosen, limit) if line["run"] else {})})
+            lines.append({"row": row.name, "system": system, **_measures(chosen, limit)})
     return lines
 
 

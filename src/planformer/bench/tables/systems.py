@@ -3,21 +3,21 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from planformer.baselines import learned_planner_names, load_planner
+from planformer.baselines import load_planner, planner_weights
 from planformer.bench.guides import LazyThetaProposer
 from planformer.data.experts import HybridAstarExpert, LazyThetaExpert, astar_path
 from planformer.geometry import polyline_length
-from planformer.guidance import RegionProposer, guide_names, load_network
+from planformer.guidance import RegionProposer, load_network
 from planformer.guidance.onnx import OnnxProposer
 from planformer.guidance.region import PAPER_THRESHOLD
 from planformer.planning import PlanResult, Problem, SearchLimits, path_is_valid, search
-from planformer.robots import PointRobot
+from planformer.weights import Weights
 
 CORRIDOR = "lazy-theta corridor"
 """A guide without learning: the surroundings of the shortest any-angle path."""
@@ -71,11 +71,6 @@ class GuidedPlanner:
     threshold: float | None = None
     exploration: float = 0.0
 
-    @property
-    def is_available(self) -> bool:
-        """Whether the weights are there."""
-        return self.guide in (None, CORRIDOR, *guide_names())
-
     def solve(self, problem: Problem, limits: SearchLimits, seed: int) -> Solution:
         """Propose a region if there is a guide, and search."""
         started = time.perf_counter()
@@ -108,11 +103,6 @@ class LearnedSystem:
 
     planner: str
 
-    @property
-    def is_available(self) -> bool:
-        """Whether its weights are there."""
-        return self.planner in learned_planner_names(PointRobot())
-
     def solve(self, problem: Problem, limits: SearchLimits, seed: int) -> Solution:
         """Plan; its time includes the network's."""
         return _solution(load_planner(self.planner).search(problem, limits=limits, seed=seed), 0.0)
@@ -130,7 +120,6 @@ class GridSearch:
     """
 
     find: Solve
-    is_available: bool = field(default=True, init=False)
 
     def solve(self, problem: Problem, limits: SearchLimits, seed: int) -> Solution:
         """Search, and check the path as planners' paths are checked; no limit applies."""
@@ -170,8 +159,11 @@ POINT_SYSTEMS: dict[str, System] = {
     "UNet-RRT*-EE": GuidedPlanner("RRTstar", "unet", PAPER_THRESHOLD, _EE),
     "MPNet": LearnedSystem("MPNet"),
     "NEXT-KS": LearnedSystem("NEXT-KS"),
-    "MPT-RRT* (F.E.)": GuidedPlanner("RRTstar", "mpt-fixed-encoding", PAPER_THRESHOLD),
-    "MPT-IRRT* (F.E.)": GuidedPlanner("InformedRRTstar", "mpt-fixed-encoding", PAPER_THRESHOLD),
+    "MPT-RRT* (F.E.)": GuidedPlanner("RRTstar", "mpt-paper-fixed-encoding", PAPER_THRESHOLD),
+    "MPT-IRRT* (F.E.)": GuidedPlanner(
+        "InformedRRTstar", "mpt-paper-fixed-encoding", PAPER_THRESHOLD
+    ),
+    "MPT-RRT* (S.E.)": GuidedPlanner("RRTstar", "mpt-paper", PAPER_THRESHOLD),
     "MPT-RRT*": GuidedPlanner("RRTstar", "mpt"),
     "MPT-IRRT*": GuidedPlanner("InformedRRTstar", "mpt"),
     "MPT-BIT*": GuidedPlanner("BITstar", "mpt"),
@@ -181,7 +173,10 @@ POINT_SYSTEMS: dict[str, System] = {
     "A* + shortcut": GridSearch(_astar),
     "Lazy Theta*": GridSearch(LazyThetaExpert().solve),
 }
-"""The systems of the tables for point robots, by the paper's names."""
+"""The systems of the tables for point robots, by the paper's names.
+
+F.E. and S.E. are the paper's architecture with fixed and shifted position encoding.
+"""
 
 CAR_SYSTEMS: dict[str, System] = {
     "RRT*": GuidedPlanner("RRTstar"),
@@ -196,7 +191,12 @@ CAR_SYSTEMS: dict[str, System] = {
 """The systems of the table for the car."""
 
 
-def guides() -> set[str]:
-    """Names of all weights that a system uses, shipped or not."""
-    every = (*POINT_SYSTEMS.values(), *CAR_SYSTEMS.values())
-    return {s.guide for s in every if isinstance(s, GuidedPlanner) and s.guide is not None}
+def fingerprints(systems: Iterable[System]) -> dict[str, str]:
+    """The SHA-256 of the weights that systems plan with."""
+    weights: dict[str, Weights] = {}
+    for system in systems:
+        if isinstance(system, LearnedSystem):
+            weights[system.planner] = planner_weights(system.planner)
+        elif isinstance(system, GuidedPlanner) and system.guide not in (None, CORRIDOR):
+            weights[system.guide] = load_network(system.guide).weights
+    return {name: str(its.card["sha256"]) for name, its in sorted(weights.items())}
