@@ -122,7 +122,7 @@ private:
     }
 
     const PaddedGrid& grid_;
-    std::vector<double> length_;
+    std::vector<Length> length_;
     std::vector<Cell> buckets_[3];
     Length floor_ = 0;  ///< Lower edge of the first bucket.
 };
@@ -163,7 +163,12 @@ void spread_towards(Wave& wave, Cell source, Cell target, Length limit) {
     }
 }
 
-void keep_least(float& least, Length value) { least = std::min(least, in_cells(value)); }
+std::vector<float> in_cells(const std::vector<Length>& lengths) {
+    std::vector<float> cells(lengths.size());
+    std::transform(lengths.begin(), lengths.end(), cells.begin(),
+                   [](Length length) { return in_cells(length); });
+    return cells;
+}
 
 }  // namespace
 
@@ -200,9 +205,10 @@ std::optional<Detours> detours(const FreeSpace& space, std::array<int, 2> start,
     const std::vector<int> cols = squares(space.width, side);
     const int height = rows.back() + 1;
     const int width = cols.back() + 1;
-    const std::vector<float> nothing(static_cast<std::size_t>(height) * width,
-                                     std::numeric_limits<float>::infinity());
-    Detours result{height, width, nothing, nothing, nothing};
+    // Converted in the end, once for each square.
+    std::vector<Length> least_from_start(static_cast<std::size_t>(height) * width, kUnreached);
+    std::vector<Length> least_from_goal = least_from_start;
+    std::vector<Length> least_excess = least_from_start;
     Wave inward(grid);
     inward.spread(target, [&](Cell cell) {
         const Length length = inward.length(cell);
@@ -212,12 +218,13 @@ std::optional<Detours> detours(const FreeSpace& space, std::array<int, 2> start,
         if (detour > longest_detour) return false;
         const std::size_t square =
             static_cast<std::size_t>(rows[cell.row]) * width + cols[cell.col];
-        keep_least(result.from_start[square], from_start);
-        keep_least(result.from_goal[square], length);
-        keep_least(result.excess[square], detour);
+        least_from_start[square] = std::min(least_from_start[square], from_start);
+        least_from_goal[square] = std::min(least_from_goal[square], length);
+        least_excess[square] = std::min(least_excess[square], detour);
         return true;
     });
-    return result;
+    return Detours{height, width, in_cells(least_from_start), in_cells(least_from_goal),
+                   in_cells(least_excess)};
 }
 
 }  // namespace planformer

@@ -292,3 +292,20 @@ def test_random_maps_survive_every_question(grid):
     assert repr(grid)
     assert grid.clearance.shape == grid.shape
     assert grid.to_ros().shape == (grid.occupied.size,)
+
+
+def test_components_are_the_parts_that_a_disc_cannot_leave():
+    occupied = np.zeros((20, 30), bool)
+    occupied[:, 10] = True
+    occupied[4:6, 20] = True
+    grid = OccupancyGrid(occupied, resolution=0.1)
+    parts = grid.components(0.0)
+    assert parts.shape == grid.shape
+    assert not parts.flags.writeable
+    assert ((parts == 0) == grid.blocked(0.0)).all()
+    assert len(np.unique(parts[:, :10])) == len(np.unique(parts[10:, 11:])) == 1
+    assert parts[0, 0] != parts[0, 29]
+    assert grid.components(0.0) is parts  # kept
+    assert not grid.components(2.0).any()  # fits nowhere
+    with pytest.raises(InvalidParameter, match="radius"):
+        grid.components(-1.0)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import planformer as pf
-from planformer.planning import Problem, is_connected
+from planformer.planning import Problem, planner_names
 
 POINT = pf.PointRobot(radius=0.1)
 DUBINS = pf.DubinsCar(radius=0.1, turning_radius=0.4)
@@ -15,7 +15,7 @@ ROBOTS = (POINT, DUBINS, REEDS_SHEPP)
 EVERY_PLANNER = [
     pytest.param(robot, name, id=f"{type(robot).__name__}-{name}")
     for robot in ROBOTS
-    for name in pf.planner_names(robot)
+    for name in planner_names(robot)
 ]
 
 
@@ -37,7 +37,7 @@ def random_problem(
         yaws = rng.uniform(-np.pi, np.pi, 2)[:, None] if robot.state_dimension == 3 else []
         ends = [(*start, *yaws[0]), (*goal, *yaws[1])] if len(yaws) else [start, goal]
         problem = Problem(grid, robot, tuple(ends[0]), tuple(ends[1]))
-        if is_connected(~problem.blocked, problem):
+        if problem.is_connected:
             return problem
     raise AssertionError("no connected start and goal on this map")
 

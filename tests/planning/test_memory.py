@@ -6,8 +6,7 @@ from pathlib import Path
 
 import pytest
 
-import planformer as pf
-from planformer.planning import SearchLimits, search
+from planformer.planning import SearchLimits, planner_names, search
 
 from .conftest import DUBINS, POINT, REEDS_SHEPP, random_problem
 
@@ -25,7 +24,7 @@ def resident_bytes():
     ("robot", "planners"),
     [
         (POINT, ["RRTConnect", "RRTstar", "BITstar"]),
-        (POINT, [name for name in pf.planner_names(POINT) if name not in ("AITstar", "FMT")]),
+        (POINT, [name for name in planner_names(POINT) if name not in ("AITstar", "FMT")]),
         (DUBINS, ["RRTConnect", "RRTstar", "BITstar", "SST"]),
         (REEDS_SHEPP, ["RRTConnect", "InformedRRTstar", "ABITstar"]),
     ],

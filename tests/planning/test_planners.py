@@ -11,7 +11,7 @@ import planformer as pf
 from planformer import _core
 from planformer.errors import InvalidParameter, UnknownPlanner
 from planformer.geometry import polyline_length
-from planformer.planning import PlanStatus, Problem, SearchLimits, is_connected, search
+from planformer.planning import PlanStatus, Problem, SearchLimits, planner_names, search
 
 from .conftest import DUBINS, EVERY_PLANNER, POINT, REEDS_SHEPP, ROBOTS, random_problem
 
@@ -126,7 +126,7 @@ def test_the_tree_joins_free_vertices(open_room, robot, planner):
         assert nearest < 1e-9 or (end is problem.goal and planner == "SST")
 
 
-@pytest.mark.parametrize("planner", [p for p in pf.planner_names(POINT) if p != "LazyPRMstar"])
+@pytest.mark.parametrize("planner", [p for p in planner_names(POINT) if p != "LazyPRMstar"])
 def test_the_edges_of_a_point_s_tree_are_free(open_room, planner):
     problem = random_problem(open_room, POINT, 4)
     tree = search(problem, planner, limits=FIRST_PATH, seed=1, keep_tree=True).tree
@@ -190,7 +190,7 @@ def test_an_unreachable_goal_is_known_without_a_search(robot):
     grid = pf.OccupancyGrid(occupied, 0.05)
     yaw = (0.0,) * (robot.state_dimension - 2)
     problem = Problem(grid, robot, (0.5, 1.5, *yaw), (2.5, 1.5, *yaw))
-    assert not is_connected(~problem.blocked, problem)
+    assert not problem.is_connected
     result = search(problem, "RRTstar", limits=SearchLimits(seconds=None))
     assert (result.solved, result.status) == (False, PlanStatus.UNREACHABLE)
     assert result.path.shape == (0, robot.state_dimension)
@@ -229,7 +229,7 @@ def test_an_unknown_planner_is_an_error_that_lists_the_planners_of_the_robot(ope
         problem = random_problem(open_room, robot, 1)
         with pytest.raises(UnknownPlanner) as error:
             search(problem, unknown)
-        assert all(name in str(error.value) for name in pf.planner_names(robot))
+        assert all(name in str(error.value) for name in planner_names(robot))
 
 
 @pytest.mark.parametrize("exploration", [-0.01, 1.01, np.nan, np.inf])

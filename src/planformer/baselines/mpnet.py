@@ -28,7 +28,6 @@ from planformer.planning import (
     PlanStatus,
     Problem,
     SearchLimits,
-    is_connected,
     path_is_valid,
     search,
 )
@@ -149,7 +148,7 @@ class _Query:
 
     def _status(self) -> PlanStatus:
         """Plan; why it ended where no limit did."""
-        if not is_connected(~self.problem.blocked, self.problem):
+        if not self.problem.is_connected:
             return PlanStatus.UNREACHABLE
         self._check_limits()
         target = self.limits.target_length

@@ -30,7 +30,6 @@ from planformer.planning import (
     Problem,
     SearchLimits,
     Tree,
-    is_connected,
     path_is_valid,
 )
 from planformer.planning.search import checked_seed
@@ -165,7 +164,7 @@ class _Query:
 
     def _status(self) -> PlanStatus:
         """Grow the tree; why that ended."""
-        if not is_connected(~self.problem.blocked, self.problem):
+        if not self.problem.is_connected:
             return PlanStatus.UNREACHABLE
         self._look_for_goal(0)
         if self.reached is not None:  # nothing is shorter than a straight line

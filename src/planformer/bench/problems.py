@@ -23,7 +23,7 @@ from planformer.data.problems import random_problems
 from planformer.errors import InvalidParameter, InvalidProblem
 from planformer.geometry import polyline_length
 from planformer.maps import OccupancyGrid, load_scenarios
-from planformer.planning import Problem, is_connected
+from planformer.planning import Problem
 
 PROBLEMS_PER_MAP = 4
 EVALUATION_ENTROPY = 2**32
@@ -152,5 +152,5 @@ def _from_scenarios(
             problem = Problem(grid, scene.robot, start, goal)
         except InvalidProblem:
             continue
-        if is_connected(~problem.blocked, problem):
+        if problem.is_connected:
             yield problem

@@ -21,8 +21,9 @@ DISTANCE_SCALE = 10.0
 EXCESS_SCALE = 3.0
 """A detour of this many coarse cells more than the shortest dims a cell to 1/e."""
 
-DETOUR_LIMIT = 5.0
-"""Cells further out of the way than this, in metres, tell a network nothing."""
+POINT_DETOURS, CAR_DETOURS = 2.0, 5.0
+"""Cells further out of the way than this, in metres, tell a network nothing: it says the same of a
+point robot's way with 2 m as with 5 m, where a car's errs a little more with 3 m."""
 
 
 def encode_query(
@@ -125,11 +126,12 @@ def _distance_channels(
     too far out of the way look as if they were infinitely far, which saves much of the search.
     """
     side = scale.query_stride
-    found = _detours(pixels > 0, states, scale.resolution, side)
+    limit = CAR_DETOURS if scale.headings else POINT_DETOURS
+    found = _detours(pixels > 0, states, scale.resolution, limit, side)
     if found is None:
         # Resampling has closed the way, or there is none: any free pixel opens a query pixel.
         coarse = _free_share(pixels, side) == 0.0
-        found = _detours(coarse, states, scale.query_resolution, 1)
+        found = _detours(coarse, states, scale.query_resolution, limit, 1)
     if found is None:
         found = np.full((3, *coarse.shape), np.inf, np.float32)
     reach = DISTANCE_SCALE / scale.query_resolution
@@ -140,11 +142,12 @@ def _detours(
     blocked: NDArray[np.bool_],
     states: tuple[NDArray[np.float64], ...],
     resolution: float,
+    limit: float,
     side: int,
 ) -> NDArray[np.float32] | None:
     """`detours` in query pixels, for squares of one query pixel."""
     start, goal = (_cell(state, blocked.shape, resolution) for state in states)
-    found = detours(blocked, start, goal, DETOUR_LIMIT / resolution, side)
+    found = detours(blocked, start, goal, limit / resolution, side)
     return None if found is None else found / np.float32(side)
 
 

@@ -182,34 +182,33 @@ def spread(
     Returns:
         (H, W) float32; cells in no patch are -1.
     """
-    rows = _spread_axis(probability, 0, grid, scale)
-    return _spread_axis(rows, 1, grid, scale)
+    # Between the edges of patches the cells of a row are all the same, and so are whole rows.
+    rows, row_counts = _spread_axis(probability.T, grid.shape[0], grid, scale)
+    values, column_counts = _spread_axis(rows.T, grid.shape[1], grid, scale)
+    return values.repeat(column_counts, axis=1).repeat(row_counts, axis=0)
 
 
 def _spread_axis(
-    values: NDArray[np.float32], axis: int, grid: OccupancyGrid, scale: NetworkScale
-) -> NDArray[np.float32]:
-    """`spread` along one axis alone."""
-    count = values.shape[axis]
-    pixels = (np.arange(grid.shape[axis]) + 0.5) * grid.resolution / scale.resolution
+    values: NDArray[np.float32], cells: int, grid: OccupancyGrid, scale: NetworkScale
+) -> tuple[NDArray[np.float32], NDArray[np.intp]]:
+    """`spread` along the last axis alone.
+
+    Returns:
+        A value for each run of cells that are in the same patches, and the lengths of the runs.
+    """
+    pixels = (np.arange(cells) + 0.5) * grid.resolution / scale.resolution
     # Patches are half-open, as in `region_mask`: from `patch // 2` before the anchor.
     offset = pixels - scale.anchor_offset + scale.patch // 2
-    first = np.floor((offset - scale.patch) / scale.stride).astype(np.int64) + 1
-    last = np.floor(offset / scale.stride).astype(np.int64)
-    beyond = [(0, int(axis == 0)), (0, int(axis == 1))]
-    padded = np.pad(values, beyond, constant_values=-1.0)  # its last place stands for no token
-    index = first
-    result = padded.take(np.where(_covers(index, last, count), index, count), axis=axis)
-    for _ in range(int((last - first).max())):
-        index = index + 1
-        part = padded.take(np.where(_covers(index, last, count), index, count), axis=axis)
-        np.maximum(result, part, out=result)
-    return result
-
-
-def _covers(token: NDArray[np.int64], last: NDArray[np.int64], count: int) -> NDArray[np.bool_]:
-    """Whether a pixel's token exists and its patch reaches the pixel."""
-    return (token <= last) & (token >= 0) & (token < count)
+    first = np.floor((offset - scale.patch) / scale.stride).astype(np.intp) + 1
+    last = np.floor(offset / scale.stride).astype(np.intp)
+    begins = np.flatnonzero(np.diff(first) | np.diff(last)) + 1
+    begins = np.concatenate(([0], begins))
+    first, last = first[begins], last[begins]
+    padded = np.pad(values, ((0, 0), (0, 1)), constant_values=-1.0)  # in the end: no token
+    covering = first[:, None] + np.arange(max((last - first).max(), 0) + 1)
+    exists = (covering <= last[:, None]) & (covering >= 0) & (covering < values.shape[1])
+    largest = padded[:, np.where(exists, covering, values.shape[1])].max(axis=-1)
+    return largest, np.diff(begins, append=cells)
 
 
 def connecting_threshold(cells: NDArray[np.float32], problem: Problem) -> float | None:

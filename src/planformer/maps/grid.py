@@ -24,6 +24,25 @@ _RADIUS_TOLERANCE = 1e-6
 _FARTHEST_CELL = 2.0**62
 
 
+@dataclass(frozen=True, eq=False)
+class _Inflation:
+    """A map inflated by a radius in metres, with what follows from that."""
+
+    radius: float
+    blocked: NDArray[np.bool_]
+
+    @cached_property
+    def components(self) -> NDArray[np.int32]:
+        """See `OccupancyGrid.components`."""
+        import cv2
+
+        free = (~self.blocked).view(np.uint8)
+        labels = cv2.connectedComponents(free, connectivity=4, ltype=cv2.CV_32S)[1]
+        components = np.asarray(labels, dtype=np.int32)
+        components.setflags(write=False)
+        return components
+
+
 @dataclass(frozen=True, init=False, repr=False, eq=False)
 class OccupancyGrid:
     """An immutable occupancy map.
@@ -72,7 +91,7 @@ class OccupancyGrid:
         object.__setattr__(self, "resolution", checked_resolution(resolution))
         object.__setattr__(self, "origin", checked_origin(origin))
         object.__setattr__(self, "unknown", unseen)
-        object.__setattr__(self, "_last_blocked", None)
+        object.__setattr__(self, "_last_inflation", None)
 
     @classmethod
     def from_ros(
@@ -210,15 +229,35 @@ class OccupancyGrid:
         Raises:
             InvalidParameter: The radius is negative or not finite.
         """
+        return self._inflation(radius).blocked
+
+    def components(self, radius: float) -> NDArray[np.int32]:
+        """Parts of the map that a disc robot cannot leave.
+
+        Four neighbours are exact: a motion through a corner touches the cells beside it.
+
+        Args:
+            radius: As in `blocked`.
+
+        Returns:
+            (H, W) int32, read-only: the number of each free cell's 4-connected component, 0 where
+            blocked; kept for the last radius asked for.
+
+        Raises:
+            InvalidParameter: The radius is negative or not finite.
+        """
+        return self._inflation(radius).components
+
+    def _inflation(self, radius: float) -> _Inflation:
         if not (math.isfinite(radius) and radius >= 0):
             raise InvalidParameter(f"radius must be finite and >= 0 m; got {radius}")
-        last: tuple[float, NDArray[np.bool_]] | None = self.__dict__["_last_blocked"]
-        if last is None or last[0] != radius:
-            mask = self.clearance <= np.float32(radius * (1.0 + _RADIUS_TOLERANCE))
-            mask.setflags(write=False)
-            last = (radius, mask)
-            object.__setattr__(self, "_last_blocked", last)
-        return last[1]
+        last: _Inflation | None = self.__dict__["_last_inflation"]
+        if last is None or last.radius != radius:
+            blocked = self.clearance <= np.float32(radius * (1.0 + _RADIUS_TOLERANCE))
+            blocked.setflags(write=False)
+            last = _Inflation(radius, blocked)
+            object.__setattr__(self, "_last_inflation", last)
+        return last
 
     def nearest_free(self, xy: ArrayLike, radius: float = 0.0) -> tuple[float, float] | None:
         """Centre of the non-blocked cell nearest to a world point.

@@ -33,7 +33,7 @@ class CompactMPT(nn.Module):
         super().__init__()
         side = scale.query_stride
         reduction = scale.stride // side
-        self.pack = nn.PixelUnshuffle(side)
+        self.side = side
         # Most of the time would go into convolutions at the query's own resolution.
         self.stem = nn.Sequential(
             nn.Conv2d(side**2 + scale.query_channels, body.stem, 2, stride=2),
@@ -57,13 +57,25 @@ class CompactMPT(nn.Module):
         Returns:
             The proposal, with the anchor of token (r, c) at pixel (20 r + 10, 20 c + 10).
         """
-        tokens = self.stem(torch.cat([self.pack(occupancy), query], dim=1))
+        tokens = self.stem[1:](self._first_layer(occupancy, query))
         output = self.head(self.norm(self.blocks(tokens)))
         return Proposal(
             output[:, :1],
             heading=output[:, 1:3] if self.headings else None,
             offset=output[:, -2:] if self.offsets else None,
         )
+
+    def _first_layer(self, occupancy: Tensor, query: Tensor) -> Tensor:
+        """The stem's first convolution, of the map packed into query pixels, and of the query.
+
+        To pack the map and to join both took a fourth of the network's time: the same sums are a
+        convolution of the map with larger kernels and another of the query.
+        """
+        first, side = self.stem[0], self.side
+        assert isinstance(first, nn.Conv2d)
+        of_map, of_query = first.weight[:, : side**2], first.weight[:, side**2 :]
+        from_map = F.conv2d(occupancy, F.pixel_shuffle(of_map, side), stride=2 * side)
+        return from_map + F.conv2d(query, of_query, first.bias, stride=2)
 
 
 def _blocks(body: CompactBody) -> list[nn.Module]:

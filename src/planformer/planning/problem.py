@@ -56,6 +56,13 @@ class Problem:
             _check_free(state, name, self)
 
     @cached_property
+    def is_connected(self) -> bool:
+        """Whether start and goal lie in one part of the map, so that a disc can get there."""
+        components = self.grid.components(self.robot.radius)
+        (r0, c0), (r1, c1) = self.grid.to_rc([self.start[:2], self.goal[:2]])
+        return bool(components[r0, c0] == components[r1, c1])
+
+    @cached_property
     def local_start(self) -> NDArray[np.float64]:
         """(3,) start pose in the map's own frame; the yaw of a point robot is 0."""
         return self._local(self.start)

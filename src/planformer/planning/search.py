@@ -108,7 +108,7 @@ def search(
         raise InvalidParameter(f"exploration must be between 0 and 1; got {exploration}")
     if _starts_at_goal(problem):
         return _without_search(problem, PlanStatus.FINISHED, [problem.start, problem.goal], started)
-    if not is_connected(~problem.blocked, problem):
+    if not problem.is_connected:
         return _without_search(problem, PlanStatus.UNREACHABLE, [], started)
     limits = limits or SearchLimits()
     preparation = time.perf_counter() - started
