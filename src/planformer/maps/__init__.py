@@ -1,5 +1,6 @@
 """Maps: the occupancy grid, its file formats and generators."""
 
+from planformer.maps.costmap import Costmap
 from planformer.maps.forest import generate_forest
 from planformer.maps.grid import OccupancyGrid
 from planformer.maps.indoor import generate_indoor
@@ -8,6 +9,7 @@ from planformer.maps.maze import generate_maze
 from planformer.maps.movingai import Scenario, load_scenarios
 
 __all__ = [
+    "Costmap",
     "OccupancyGrid",
     "Scenario",
     "generate_forest",
