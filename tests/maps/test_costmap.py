@@ -297,7 +297,7 @@ class TestRegion:
             near = min(math.dist(centre(world, cell), state) for state in (start, goal))
             if mask[cell] or near < keep - 1e-9 or before == LETHAL:
                 assert after == before
-            elif near > max(keep, world.resolution):
+            elif near > max(keep + 1e-9, world.resolution):
                 assert after == INSCRIBED
 
     @given(st.data())

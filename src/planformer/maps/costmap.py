@@ -1,9 +1,9 @@
 """Costmaps as Nav2 has them: values, repair of the start, and what becomes of a proposed region.
 
-Everything here is a function of its arguments and knows no ROS, so that what a robot does can be
-tested without one. Costs are those of nav2_costmap_2d: 0 free to 252 expensive, 253 inscribed (a
-robot whose centre is here touches an obstacle), 254 lethal (an obstacle), 255 unknown. A costmap is
-inflated already: whoever plans on it plans for a robot without extent.
+Everything here is a function of its arguments and knows no ROS. Costs are those of nav2_costmap_2d:
+0 free to 252 expensive, 253 inscribed (a robot whose centre is here touches an obstacle), 254
+lethal (an obstacle), 255 unknown. A costmap is inflated already: whoever plans on it plans for a
+robot without extent.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from planformer.maps._validation import checked_origin, checked_resolution
 from planformer.maps.grid import OccupancyGrid
 
 DEAREST, INSCRIBED, LETHAL, UNKNOWN = 252, 253, 254, 255
-"""Costs with a meaning of their own; everything up to DEAREST can be driven through."""
+"""Costs with a meaning of their own; all up to DEAREST can be driven through."""
 
 MAX_CELLS = 2**26
 """Larger maps are refused: 8192 x 8192 cells, a square of 400 m at 0.05 m."""
@@ -223,9 +223,8 @@ def inflated(costmap: Costmap, radius: float) -> Costmap:
 def with_way_out(costmap: Costmap, start: Sequence[float], reach: float) -> Costmap:
     """Let a robot leave that stands too close to an obstacle.
 
-    Localisation and obstacles move, so a robot often finds itself in the inscribed zone. Its cells
-    become passable in a disc round the start that just reaches the nearest passable cell; lethal
-    and unknown cells stay closed. A start in passable space changes nothing.
+    Inscribed cells become passable in a disc round the start that just reaches the nearest passable
+    cell; lethal and unknown cells stay closed. A start in passable space changes nothing.
 
     Args:
         costmap: The costmap, inflated.
@@ -309,8 +308,7 @@ def fallback_reason(
     """Why to plan on the whole costmap and not inside a region; None for a region that serves.
 
     A region is of no use if it was made for a map of another size, or does not connect start and
-    goal through passable cells. That it does connect them is no promise to a robot that needs room
-    to turn.
+    goal through passable cells. (That it does promises nothing to a car, which needs room to turn.)
 
     Args:
         costmap: The costmap.
