@@ -1,0 +1,38 @@
+"""Starts planformer's node.
+
+ros2 launch planformer_ros planformer.launch.py params_file:=my.yaml
+"""
+
+from launch.actions import DeclareLaunchArgument
+from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
+from launch_ros.actions import LifecycleNode
+from launch_ros.substitutions import FindPackageShare
+
+from launch import LaunchDescription
+
+
+def generate_launch_description():
+    """The arguments and the node."""
+    defaults = PathJoinSubstitution(
+        [FindPackageShare("planformer_ros"), "config", "planformer.yaml"]
+    )
+    arguments = [
+        DeclareLaunchArgument("params_file", default_value=defaults, description="parameters"),
+        DeclareLaunchArgument("namespace", default_value="", description="namespace"),
+        DeclareLaunchArgument("use_sim_time", default_value="false", description="clock of Gazebo"),
+        DeclareLaunchArgument("log_level", default_value="info", description="least to log"),
+    ]
+    node = LifecycleNode(
+        package="planformer_ros",
+        executable="planner",
+        name="planformer",
+        namespace=LaunchConfiguration("namespace"),
+        parameters=[
+            LaunchConfiguration("params_file"),
+            {"use_sim_time": LaunchConfiguration("use_sim_time")},
+        ],
+        arguments=["--ros-args", "--log-level", LaunchConfiguration("log_level")],
+        output="screen",
+        respawn=True,
+    )
+    return LaunchDescription([*arguments, node])

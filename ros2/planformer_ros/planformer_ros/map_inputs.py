@@ -1,0 +1,72 @@
+"""Subscriptions to maps, costmaps and their updates."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from map_msgs.msg import OccupancyGridUpdate
+from nav_msgs.msg import OccupancyGrid
+from planformer.errors import InvalidMap, PlanformerError
+from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
+from rclpy.node import Node
+from std_msgs.msg import Header
+
+from planformer_ros.messages import costmap_of_map, costmap_of_published, patch_of
+from planformer_ros.qos import LATCHED
+from planformer_ros.settings import Wiring
+from planformer_ros.world import World
+
+
+class MapInputs:
+    """Keeps the world up to date.
+
+    Args:
+        node: The node that they belong to.
+        wiring: Topics and the frame that maps have to be in.
+        world: Gets the maps.
+    """
+
+    def __init__(self, node: Node, wiring: Wiring, world: World) -> None:
+        self._node, self._wiring, self._world = node, wiring, world
+        wanted: list[tuple[type, str, Callable[[Any], None]]] = []
+        if wiring.map_topic:
+            wanted.append((OccupancyGrid, wiring.map_topic, self._on_map))
+        if wiring.costmap_topic:
+            updates = f"{wiring.costmap_topic}_updates"
+            wanted.append((OccupancyGrid, wiring.costmap_topic, self._on_costmap))
+            wanted.append((OccupancyGridUpdate, updates, self._on_update))
+        group = MutuallyExclusiveCallbackGroup()  # no update overtakes another
+        self._subscriptions = [
+            node.create_subscription(kind, topic, callback, LATCHED, callback_group=group)
+            for kind, topic, callback in wanted
+        ]
+
+    def destroy(self) -> None:
+        """End the subscriptions."""
+        for subscription in self._subscriptions:
+            self._node.destroy_subscription(subscription)
+
+    def _on_map(self, message: OccupancyGrid) -> None:
+        with self._reporting(message.header):
+            self._world.set_map(costmap_of_map(message))
+
+    def _on_costmap(self, message: OccupancyGrid) -> None:
+        with self._reporting(message.header):
+            self._world.set_costmap(costmap_of_published(message))
+
+    def _on_update(self, message: OccupancyGridUpdate) -> None:
+        with self._reporting(message.header):
+            self._world.update_costmap(patch_of(message), message.x, message.y)
+
+    @contextmanager
+    def _reporting(self, header: Header) -> Iterator[None]:
+        """What is no map is reported and leaves the last one in place."""
+        frame = self._wiring.global_frame
+        try:
+            if header.frame_id != frame:
+                raise InvalidMap(f"its frame is {header.frame_id!r}, global_frame is {frame!r}")
+            yield
+        except PlanformerError as error:
+            self._node.get_logger().warning(f"a map is ignored: {error}")
