@@ -138,14 +138,15 @@ void register_planning(nb::module_& m) {
              nb::arg("yaw_deviations"), nb::arg("ends").none(), nb::arg("area"))
         .def(
             "sample",
-            [](const Region& self, std::size_t count, std::uint32_t seed) {
+            [](const Region& self, std::size_t count, std::uint32_t seed, double focus) {
                 ompl::RNG rng;
                 rng.setLocalSeed(seed);
                 std::vector<Pose> poses(count);
-                for (Pose& pose : poses) pose = sample_region(self, rng);
+                for (Pose& pose : poses) pose = sample_region(self, rng, focus);
                 return to_numpy(poses);
             },
-            nb::arg("count"), nb::arg("seed"), "Draw (count, 3) poses, some maybe off the map.");
+            nb::arg("count"), nb::arg("seed"), nb::arg("focus") = 0.0,
+            "Draw (count, 3) poses, some maybe off the map.");
 
     nb::class_<Answer>(m, "Answer")
         .def_prop_ro(

@@ -70,7 +70,9 @@ void write_state(const ompl::base::StateSpace& space, const Pose& pose, ompl::ba
 Pose read_state(const ompl::base::StateSpace& space, const ompl::base::State* state);
 
 /// Draws one pose inside the region; it may lie outside the map.
-Pose sample_region(const Region& region, ompl::RNG& rng);
+///
+/// @param focus  Share of a point's samples that lie close to the predicted path, if there is one.
+Pose sample_region(const Region& region, ompl::RNG& rng, double focus = 0.0);
 
 /// Draws one pose uniformly on the map.
 Pose sample_extent(const Extent& extent, ompl::RNG& rng);

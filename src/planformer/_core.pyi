@@ -69,7 +69,9 @@ class Region:
         ends: Ends | None,
         area: float,
     ) -> None: ...
-    def sample(self, count: int, seed: int) -> NDArray[np.float64]: ...  # (count, 3)
+    def sample(
+        self, count: int, seed: int, focus: float = 0.0
+    ) -> NDArray[np.float64]: ...  # (count, 3)
 
 class Answer:
     @property
