@@ -34,12 +34,14 @@ if TYPE_CHECKING:
     from planformer.robots import DubinsCar as DubinsCar
     from planformer.robots import PointRobot as PointRobot
     from planformer.robots import ReedsSheppCar as ReedsSheppCar
+    from planformer.session import MapSession as MapSession
 
 __version__ = "0.1.0"
 
 _HOME = {
     "CancelToken": "planning",
     "DubinsCar": "robots",
+    "MapSession": "session",
     "OccupancyGrid": "maps",
     "PlanResult": "planning",
     "PlanStatus": "planning",

@@ -1,0 +1,104 @@
+"""Many queries on one map."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any
+
+from planformer.api import plan, propose_region
+from planformer.errors import UnknownGuide
+from planformer.guidance import Region, RegionProposer, resolve_guide
+from planformer.maps import OccupancyGrid
+from planformer.planning import PlanResult
+from planformer.robots import Robot
+
+Query = tuple[Sequence[float], Sequence[float]]
+
+
+class MapSession:
+    """Plans on one map, again and again.
+
+    What depends on the map alone, such as its inflation by the robot, is computed with the first
+    query; the guide is loaded once. Queries may come from several threads.
+
+    Args:
+        grid: The map.
+        robot: The robot.
+        guide: As in `planformer.plan`.
+        threshold: As in `planformer.plan`.
+
+    Raises:
+        UnknownGuide: No such weights.
+        InvalidParameter: The threshold is out of range, or the guide has its own.
+    """
+
+    def __init__(
+        self,
+        grid: OccupancyGrid,
+        robot: Robot,
+        *,
+        guide: str | RegionProposer | None = "mpt",
+        threshold: float | None = None,
+    ) -> None:
+        self._grid = grid
+        self._robot = robot
+        self._guide = None if guide is None else resolve_guide(guide, threshold)
+
+    @property
+    def grid(self) -> OccupancyGrid:
+        """The map that the next query sees."""
+        return self._grid
+
+    @property
+    def robot(self) -> Robot:
+        """The robot."""
+        return self._robot
+
+    def update(self, grid: OccupancyGrid) -> None:
+        """Replace the map; queries that have begun end on the former one."""
+        self._grid = grid
+
+    def propose_region(self, start: Sequence[float], goal: Sequence[float]) -> Region:
+        """Propose a region; see `planformer.propose_region`.
+
+        Raises:
+            UnknownGuide: The session has no guide.
+        """
+        if self._guide is None:
+            raise UnknownGuide("this session has no guide to propose a region")
+        return propose_region(self._grid, self._robot, start, goal, guide=self._guide)
+
+    def plan(self, start: Sequence[float], goal: Sequence[float], **options: Any) -> PlanResult:
+        """Plan a path; options and errors are those of `planformer.plan`."""
+        return plan(self._grid, self._robot, start, goal, guide=self._guide, **options)
+
+    def plan_all(
+        self, queries: Iterable[Query], *, workers: int | None = None, **options: Any
+    ) -> list[PlanResult]:
+        """Plan many paths at once, on several cores.
+
+        Args:
+            queries: Start and goal of each.
+            workers: Number of threads; None for one a core.
+            **options: As in `planformer.plan`, the same for all.
+
+        Returns:
+            The results, in the order of the queries.
+
+        Raises:
+            PlanformerError: Of the first query that raises one.
+        """
+        grid = self._grid
+        grid.components(self._robot.radius)  # once, before the threads ask for it
+        with ThreadPoolExecutor(workers or len(os.sched_getaffinity(0))) as pool:
+            plans = [
+                pool.submit(plan, grid, self._robot, *ends, guide=self._guide, **options)
+                for ends in queries
+            ]
+            try:
+                return [future.result() for future in plans]
+            finally:  # after an error or Ctrl-C those that have not begun need not
+                for future in plans:
+                    future.cancel()
