@@ -193,6 +193,31 @@ bench_app.command("all", help="All tables. Ctrl-C keeps what is measured.")(
 )
 
 
+@bench_app.command("latency")
+def latency_command(
+    problems: Annotated[int, typer.Option(help="Problems in each row.")] = 100,
+    output: Annotated[Path, typer.Option(metavar="FOLDER", help="Folder of the results.")] = Path(
+        "bench_latency"
+    ),
+    seed: Annotated[int, typer.Option(help="Seed of maps and problems.")] = 0,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print the summary as JSON and nothing else.")
+    ] = False,
+) -> None:
+    """Time the proposal of regions and its stages.
+
+    Example: planformer bench latency --problems 20
+    """
+    from planformer.bench.latency import markdown, run_latency
+
+    with _progress_bar() as show:
+        summary = run_latency(output, problems=problems, seed=seed, report=show)
+    if as_json:
+        print_json(summary)
+    else:
+        stdout.print(markdown(summary), markup=False, soft_wrap=True)
+
+
 @bench_app.command("plot")
 def plot_command(
     folders: Annotated[

@@ -1,0 +1,169 @@
+"""How long the proposal of a region takes, and which of its stages take how much of it."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from planformer.bench.environment import environment
+from planformer.bench.reporting import SUMMARY, TABLE, interval_cell, markdown_table, session_line
+from planformer.bench.rows import Row, chosen_rows
+from planformer.bench.statistics import interval_of, median_of, percentile_90
+from planformer.bench.store import write_text
+from planformer.data.problems import random_problems
+from planformer.encoding import encode_query, network_map
+from planformer.errors import InvalidParameter
+from planformer.guidance import OnnxProposer, load_network, make_region
+from planformer.guidance.onnx import OnnxNetwork
+from planformer.maps import OccupancyGrid
+from planformer.planning import Problem
+
+ROWS = ("forest-480", "maze-480", "forest-780", "dubins-forest-480")
+"""What is measured: sizes in pixels, and both robots."""
+
+STAGES = {
+    "first": "first query on a map",
+    "repeated": "another query on it",
+    "query": "of which: start and goal, with the waves",
+    "network": "the network",
+    "region": "region and samples' shapes",
+}
+"""What is timed. The first query includes the map's inflation by the robot."""
+
+_PER_MAP = 10
+
+
+def run_latency(
+    folder: str | Path,
+    *,
+    problems: int = 100,
+    seed: int = 0,
+    report: Callable[[int, int], None] | None = None,
+) -> dict[str, Any]:
+    """Time the shipped guides on problems on generated maps, ten problems a map.
+
+    Args:
+        folder: Where summary.json and table.md go.
+        problems: Problems in each row.
+        seed: Seed of maps and problems.
+        report: Called with the number of problems measured and their total.
+
+    Returns:
+        The content of summary.json; times in seconds.
+
+    Raises:
+        InvalidParameter: A value is out of range.
+    """
+    if problems < 1:
+        raise InvalidParameter(f"problems must be >= 1; got {problems}")
+    lines = []
+    for number, row in enumerate(chosen_rows(ROWS, None)):
+        network = load_network("mpt" if row.plane else "mpt-dubins")
+        times = []
+        for index in range(problems):
+            times.append(_measure(_problem(row, index, seed), network))
+            if report:
+                report(number * problems + index + 1, len(ROWS) * problems)
+        lines.append(_line(row, network, times))
+    summary = {"sessions": [environment()], "lines": lines}
+    folder = Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    write_text(folder / SUMMARY, json.dumps(summary, indent=2, allow_nan=False) + "\n")
+    write_text(folder / TABLE, markdown(summary))
+    return summary
+
+
+def _problem(row: Row, index: int, seed: int) -> Problem:
+    """A problem of a row; the same ones for each seed."""
+    rng = np.random.default_rng([seed, index])
+    scene = row.scenes[0]
+    grid = scene.maps.grid(int(np.random.default_rng([seed, index // _PER_MAP]).integers(2**31)))
+    problems = random_problems(
+        grid,
+        scene.robot,
+        min_distance=row.min_distance,
+        max_distance=row.max_distance,
+        rng=rng,
+    )
+    return next(problems)
+
+
+def _measure(problem: Problem, network: OnnxNetwork) -> dict[str, float]:
+    """Seconds of each of `STAGES` on one problem, each stage the second time that it runs."""
+    proposer, grid = OnnxProposer(network), problem.grid
+    fresh = OccupancyGrid(grid.occupied, grid.resolution, grid.origin)
+
+    def propose(on: OccupancyGrid) -> object:
+        ends = problem.start, problem.goal
+        return proposer.propose(Problem(on, problem.robot, *ends)).sampling()
+
+    propose(grid)
+    prediction = network.predict(problem)
+    pixels = network_map(problem.blocked, grid.resolution, network.scale)
+    ends = problem.local_start, problem.local_goal
+    inputs = {
+        "map": pixels[None, None],
+        "query": encode_query(pixels, *ends, network.scale)[None],
+    }
+    return {
+        "first": _seconds(lambda: propose(fresh)),
+        "repeated": _seconds(lambda: propose(grid)),
+        "query": _seconds(lambda: encode_query(pixels, *ends, network.scale)),
+        "network": _seconds(lambda: network.session.run(None, inputs)),
+        "region": _seconds(
+            lambda: make_region(
+                problem,
+                prediction.probability,
+                network.scale,
+                headings=prediction.headings,
+                yaw_deviations=prediction.yaw_deviations,
+                offsets=prediction.offsets,
+            ).sampling()
+        ),
+    }
+
+
+def _seconds(call: Callable[[], object]) -> float:
+    started = time.perf_counter()
+    call()
+    return time.perf_counter() - started
+
+
+def _line(row: Row, network: OnnxNetwork, times: list[dict[str, float]]) -> dict[str, Any]:
+    columns: dict[str, NDArray[np.float64]] = {
+        stage: np.array([of_problem[stage] for of_problem in times]) for stage in STAGES
+    }
+    return {
+        "row": row.name,
+        "guide": network.weights.name,
+        "problems": len(times),
+        "seconds": {stage: median_of(column) for stage, column in columns.items()},
+        "seconds_p90": {
+            stage: interval_of(percentile_90, column) for stage, column in columns.items()
+        },
+    }
+
+
+def markdown(summary: Mapping[str, Any]) -> str:
+    """Medians and 90th percentiles in milliseconds, a line a stage, and how they were measured."""
+    lines = summary["lines"]
+    header = ["ms", *(f"{line['row']}, {line['problems']} problems" for line in lines)]
+    rows = [[meaning, *(_cell(line, stage) for line in lines)] for stage, meaning in STAGES.items()]
+    sessions = [f"- {session_line(session)}" for session in summary["sessions"]]
+    caption = "Medians with 95 % intervals; 90th percentiles after the slash."
+    return "\n".join([markdown_table(header, rows), "", caption, "", *sessions]) + "\n"
+
+
+def _cell(line: Mapping[str, Any], stage: str) -> str:
+    median, high = (
+        {end: 1e3 * value for end, value in line[part][stage].items()}
+        for part in ("seconds", "seconds_p90")
+    )
+    ends = interval_cell(median, ".2f", with_ends=True)
+    return f"{ends} / {interval_cell(high, '.2f', with_ends=False)}"
