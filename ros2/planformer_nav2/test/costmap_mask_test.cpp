@@ -162,7 +162,7 @@ TEST(CostmapMask, KeepsADiscAsItWas) {
     const Cells cells(25, 7);
     Cells expected(25, 253);
     for (const std::size_t cell : {7, 11, 12, 13, 17}) expected[cell] = 7;
-    EXPECT_EQ(masked(cells, unit_grid(5, 5), Inside(25, 0), {{2.5, 2.5, 0.6}}), expected);
+    EXPECT_EQ(masked(cells, unit_grid(5, 5), Inside(25, 0), {{2.5, 2.5, 1.2}}), expected);
 }
 
 TEST(CostmapMask, KeepsWhatIsClosedInADiscClosed) {
@@ -179,11 +179,11 @@ TEST(CostmapMask, KeepsTheCellOfADiscWithoutRadius) {
 TEST(CostmapMask, CutsDiscsOffAtTheBorder) {
     const Cells cells(9, 7);
     const Grid grid = unit_grid(3, 3);
-    EXPECT_EQ(masked(cells, grid, Inside(9, 0), {{0.0, 0.0, 0.5}}),
+    EXPECT_EQ(masked(cells, grid, Inside(9, 0), {{0.0, 0.0, 1.0}}),
               (Cells{7, 253, 253, 253, 253, 253, 253, 253, 253}));
-    EXPECT_EQ(masked(cells, grid, Inside(9, 0), {{2.9, 2.9, 0.5}}),
-              (Cells{253, 253, 253, 253, 253, 253, 253, 253, 7}));
-    EXPECT_EQ(masked(cells, grid, Inside(9, 0), {{-1.0, 1.5, 1.1}}),
+    EXPECT_EQ(masked(cells, grid, Inside(9, 0), {{2.9, 2.9, 1.5}}),
+              (Cells{253, 253, 253, 253, 253, 7, 253, 7, 7}));
+    EXPECT_EQ(masked(cells, grid, Inside(9, 0), {{-1.0, 1.5, 1.5}}),
               (Cells{253, 253, 253, 7, 253, 253, 253, 253, 253}));
 }
 
@@ -220,18 +220,21 @@ TEST(CostmapMaskProperty, RestoresEveryByte) {
     }
 }
 
-/// Whether the disc touches the cell, decided from the nearest point of the cell in metres.
-bool touches(const Disc& disc, const Grid& grid, std::size_t cell, double slack) {
-    const double left = grid.origin_x + static_cast<double>(cell % grid.width) * grid.resolution;
-    const double low = grid.origin_y + static_cast<double>(cell / grid.width) * grid.resolution;
-    const double x = std::clamp(disc.x, left, left + grid.resolution);
-    const double y = std::clamp(disc.y, low, low + grid.resolution);
-    return std::hypot(disc.x - x, disc.y - y) <= disc.radius + slack;
+/// Whether a disc keeps the cell, decided in metres; `slack` [m] makes the disc larger.
+bool keeps(const Disc& disc, const Grid& grid, std::size_t cell, double slack) {
+    const double half = 0.5 * grid.resolution;
+    const double x =
+        grid.origin_x + static_cast<double>(cell % grid.width) * grid.resolution + half;
+    const double y =
+        grid.origin_y + static_cast<double>(cell / grid.width) * grid.resolution + half;
+    const double dx = std::abs(disc.x - x);
+    const double dy = std::abs(disc.y - y);
+    return std::hypot(dx, dy) <= disc.radius + slack || std::max(dx, dy) <= half + slack;
 }
 
-bool touched_by_any(const Scene& scene, std::size_t cell, double slack) {
+bool is_kept(const Scene& scene, std::size_t cell, double slack) {
     return std::any_of(scene.kept.begin(), scene.kept.end(),
-                       [&](const Disc& disc) { return touches(disc, scene.grid, cell, slack); });
+                       [&](const Disc& disc) { return keeps(disc, scene.grid, cell, slack); });
 }
 
 unsigned char closed(unsigned char cost, UnknownOutside unknown) {
@@ -248,9 +251,9 @@ TEST(CostmapMaskProperty, EveryCellIsKeptOrClosed) {
             masked(scene.cells, scene.grid, scene.inside, scene.kept, scene.unknown);
         for (std::size_t cell = 0; cell < result.size(); ++cell) {
             const unsigned char before = scene.cells[cell];
-            // Cells that a disc just touches, or just does not, may go either way.
-            const bool surely = scene.inside[cell] != 0 || touched_by_any(scene, cell, -1e-9);
-            const bool perhaps = scene.inside[cell] != 0 || touched_by_any(scene, cell, 1e-9);
+            // Cells that a disc just keeps, or just does not, may go either way.
+            const bool surely = scene.inside[cell] != 0 || is_kept(scene, cell, -1e-9);
+            const bool perhaps = scene.inside[cell] != 0 || is_kept(scene, cell, 1e-9);
             if (surely) {
                 ASSERT_EQ(result[cell], before);
             }

@@ -52,7 +52,7 @@ TEST_F(MPTPlannerTest, DescribesTheCostmapToTheService) {
 }
 
 TEST_F(MPTPlannerTest, KeepsDiscsRoundStartAndGoal) {
-    set("keep_radius", 0.3);
+    set("keep_radius", 0.5);
     serve(region());
     plan();
     Cells expected = masked_costmap();

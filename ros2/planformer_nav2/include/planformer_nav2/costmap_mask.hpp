@@ -23,7 +23,8 @@ struct CostmapView {
     Grid grid;
 };
 
-/// A place that stays as it is, whether it lies in the region or not.
+/// A place that stays as it is, whether it lies in the region or not: the cells whose centre lies
+/// in it, and the one that its own centre lies in.
 struct Disc {
     double x = 0.0;       ///< [m]
     double y = 0.0;       ///< [m]
@@ -85,7 +86,6 @@ private:
         }
     }
 
-    /// Puts back the cells that the disc touches, and always the one that its centre lies in.
     void reopen(const Disc& disc) {
         const Grid& grid = costmap_.grid;
         const double x = (disc.x - grid.origin_x) / grid.resolution;  // [cells], as below
@@ -95,9 +95,10 @@ private:
         const Range rows = cells_between(y - radius, y + radius, grid.height);
         for (unsigned int row = rows.first; row < rows.end; ++row) {
             for (unsigned int column = columns.first; column < columns.end; ++column) {
-                if (std::hypot(gap(x, column), gap(y, row)) > radius) continue;
+                const bool is_own = column == std::floor(x) && row == std::floor(y);
+                const bool is_near = std::hypot(column + 0.5 - x, row + 0.5 - y) <= radius;
                 const std::size_t cell = std::size_t{row} * grid.width + column;
-                costmap_.cells[cell] = saved_[cell];
+                if (is_own || is_near) costmap_.cells[cell] = saved_[cell];
             }
         }
     }
@@ -112,11 +113,6 @@ private:
     static unsigned int clamp_to_index(double value, unsigned int count) {
         if (!(value > 0.0)) return 0;
         return value < count ? static_cast<unsigned int>(value) : count;
-    }
-
-    /// From a coordinate to the nearest point of a cell, which reaches from `cell` to `cell + 1`.
-    static double gap(double coordinate, unsigned int cell) {
-        return std::max({0.0, cell - coordinate, coordinate - cell - 1.0});
     }
 
     CostmapView costmap_;
