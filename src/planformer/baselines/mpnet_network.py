@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from planformer.encoding import NetworkScale, network_map
 from planformer.errors import InvalidParameter, InvalidWeights, WeightsMismatch
 from planformer.planning import Problem
-from planformer.weights import Weights, read_weights
+from planformer.weights import Weights, open_session, read_weights
 
 _INPUTS = {"map", "latent", "current", "goal", "noise"}
 _OUTPUTS = ("encoding", "waypoint")
@@ -120,14 +120,7 @@ def _load(path: Path, modified: int) -> MPNetNetwork:
         scale = NetworkScale.from_dict(weights.card["scale"])
     except (KeyError, TypeError, InvalidParameter) as error:
         raise InvalidWeights(f"{path.with_suffix('.json')} has no valid scale: {error}") from error
-    options = onnxruntime.SessionOptions()
-    options.intra_op_num_threads = 1  # a step is too little to be shared
-    try:
-        session = onnxruntime.InferenceSession(
-            weights.model, options, providers=["CPUExecutionProvider"]
-        )
-    except Exception as error:  # ONNX Runtime's exceptions share no public base class
-        raise InvalidWeights(f"ONNX Runtime cannot load {path}: {error}") from error
+    session = open_session(weights)
     return MPNetNetwork(weights, scale, session, _idle(session, weights))
 
 

@@ -13,7 +13,7 @@ import onnxruntime
 from numpy.typing import NDArray
 
 from planformer.errors import InvalidWeights, WeightsMismatch
-from planformer.weights import Weights, read_weights
+from planformer.weights import Weights, open_session, read_weights
 
 _INPUTS = {"free", "goal", "context", "states"}
 _OUTPUTS = {"plan", "mean", "value"}
@@ -124,14 +124,7 @@ def load_next(path: str | Path) -> NextOnnxNetwork:
 @lru_cache(maxsize=4)
 def _load(path: Path, modified: int) -> NextOnnxNetwork:
     weights = read_weights(path)
-    options = onnxruntime.SessionOptions()
-    options.intra_op_num_threads = 1  # a sample's candidates are too little to be shared
-    try:
-        session = onnxruntime.InferenceSession(
-            weights.model, options, providers=["CPUExecutionProvider"]
-        )
-    except Exception as error:  # ONNX Runtime's exceptions share no public base class
-        raise InvalidWeights(f"ONNX Runtime cannot load {path}: {error}") from error
+    session = open_session(weights)
     names = {value.name for value in session.get_inputs()}
     outputs = {value.name for value in session.get_outputs()}
     if names != _INPUTS or outputs != _OUTPUTS:

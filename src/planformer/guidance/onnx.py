@@ -17,7 +17,7 @@ from planformer.errors import InvalidParameter, InvalidWeights, WeightsMismatch
 from planformer.guidance.region import Region, make_region
 from planformer.guidance.weights import scale_of, weights_path
 from planformer.planning import Problem
-from planformer.weights import Weights, read_weights
+from planformer.weights import Weights, open_session, read_weights
 
 _CONCENTRATIONS = (0.3, 100.0)
 """Bounds of the concentration: yaw deviations from 0.1 rad to nearly any yaw."""
@@ -160,9 +160,4 @@ def load_network(guide: str) -> OnnxNetwork:
 @lru_cache(maxsize=8)
 def _load(path: Path, modified: int) -> OnnxNetwork:
     weights = read_weights(path)
-    scale = scale_of(weights)
-    try:
-        session = onnxruntime.InferenceSession(weights.model, providers=["CPUExecutionProvider"])
-    except Exception as error:  # ONNX Runtime's exceptions share no public base class
-        raise InvalidWeights(f"ONNX Runtime cannot load {path}: {error}") from error
-    return OnnxNetwork(weights, scale, session)
+    return OnnxNetwork(weights, scale_of(weights), open_session(weights))

@@ -6,9 +6,12 @@ import hashlib
 import json
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from planformer.errors import InvalidWeights, WeightsMismatch
+
+if TYPE_CHECKING:
+    from onnxruntime import InferenceSession
 
 SHIPPED = Path(__file__).resolve().parent
 """Folder of the region proposers' weights; those of learned planners lie in its `planners`."""
@@ -57,3 +60,24 @@ def read_weights(path: Path) -> Weights:
             "truncated or was replaced; export it again or reinstall planformer"
         )
     return Weights(path, model, card)
+
+
+def open_session(weights: Weights) -> InferenceSession:
+    """What evaluates weights on the CPU, on one thread.
+
+    More threads pay for the larger networks only while nothing else runs: two programs that both
+    share a network out over the same two cores take nearly three times as long as on one thread each.
+
+    Raises:
+        InvalidWeights: ONNX Runtime cannot load the file.
+    """
+    import onnxruntime
+
+    options = onnxruntime.SessionOptions()
+    options.intra_op_num_threads = 1
+    try:
+        return onnxruntime.InferenceSession(
+            weights.model, options, providers=["CPUExecutionProvider"]
+        )
+    except Exception as error:  # ONNX Runtime's exceptions share no public base class
+        raise InvalidWeights(f"ONNX Runtime cannot load {weights.path}: {error}") from error
