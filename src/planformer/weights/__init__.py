@@ -65,8 +65,8 @@ def read_weights(path: Path) -> Weights:
 def open_session(weights: Weights) -> InferenceSession:
     """What evaluates weights on the CPU, on one thread.
 
-    More threads pay for the larger networks only while nothing else runs: two programs that both
-    share a network out over the same two cores take nearly three times as long as on one thread each.
+    More threads pay only while nothing else runs: two programs that both share a network out over
+    the same two cores take nearly three times as long as on one thread each.
 
     Raises:
         InvalidWeights: ONNX Runtime cannot load the file.
