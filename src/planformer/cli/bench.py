@@ -218,6 +218,31 @@ def latency_command(
         stdout.print(markdown(summary), markup=False, soft_wrap=True)
 
 
+@bench_app.command("growth")
+def growth_command(
+    problems: Annotated[int, typer.Option(help="Problems of each size.")] = 20,
+    output: Annotated[Path, typer.Option(metavar="FOLDER", help="Folder of the results.")] = Path(
+        "bench_growth"
+    ),
+    seed: Annotated[int, typer.Option(help="Seed of maps and problems.")] = 0,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print the summary as JSON and nothing else.")
+    ] = False,
+) -> None:
+    """Time planners on forests of 240 to 3,840 cells a side, with a plot.
+
+    Example: planformer bench growth --problems 5
+    """
+    from planformer.bench.growth import markdown, run_growth
+
+    with _progress_bar() as show:
+        summary = run_growth(output, problems=problems, seed=seed, report=show)
+    if as_json:
+        print_json(summary)
+    else:
+        stdout.print(markdown(summary), markup=False, soft_wrap=True)
+
+
 @bench_app.command("plot")
 def plot_command(
     folders: Annotated[
