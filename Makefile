@@ -15,6 +15,7 @@ MAKEFLAGS += --no-builtin-rules
 BIN := $(abspath $(VENV))/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 CPP := $(shell find cpp -name '*.cpp' -o -name '*.hpp')
+NAV2 := $(shell find ros2/planformer_nav2 -name '*.cpp' -o -name '*.hpp')
 PACKAGES := $(shell find src -name '__init__.py')
 
 # Stamps: files that stand for a step of the set-up that is done.
@@ -48,7 +49,7 @@ test-core: $(DEV_READY)
 lint: $(DEV_READY)
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
-	$(BIN)/clang-format --dry-run --Werror $(CPP)
+	$(BIN)/clang-format --dry-run --Werror $(CPP) $(NAV2)
 	$(BIN)/mypy
 	$(BIN)/lint-imports --no-logo
 
@@ -57,7 +58,7 @@ lint: $(DEV_READY)
 format: $(DEV_READY)
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
-	$(BIN)/clang-format -i $(CPP)
+	$(BIN)/clang-format -i $(CPP) $(NAV2)
 
 ## wheel: build a wheel that carries OMPL into dist/ and try it in an environment of its own
 .PHONY: wheel
