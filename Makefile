@@ -44,6 +44,11 @@ test-core: $(DEV_READY)
 	$(BIN)/cmake --build build/core
 	$(BIN)/ctest --test-dir build/core --parallel "$$(nproc)" --output-on-failure
 
+## test-ros: test the ROS 2 node on ROS from PyPI, in an environment of its own, and the Nav2 plugin
+.PHONY: test-ros
+test-ros:
+	@$(MAKE) --file ros2/test.mk
+
 ## lint: check style, types and layers
 .PHONY: lint
 lint: $(DEV_READY)

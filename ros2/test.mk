@@ -31,8 +31,10 @@ node: $(PACKAGE_READY) $(INTERFACES_READY)
 	    $(BIN)/pytest --config-file ros2/planformer_ros/pytest.ini $(TEST) $(ROS_PYTEST_ARGS)
 
 .PHONY: plugin
+plugin: export PATH := $(BIN):$(PATH)
 plugin: $(WHEELS_READY)
-	cmake -S ros2/planformer_nav2/test -B build/nav2
+	ros2/tools/gtest.sh
+	cmake -S ros2/planformer_nav2/test -B build/nav2 --log-level=WARNING
 	cmake --build build/nav2
 	ctest --test-dir build/nav2 --output-on-failure
 
@@ -46,7 +48,7 @@ $(WHEELS_READY): ros2/tools/requirements.txt tools/build-requirements.txt ros2/t
 	@$(BIN)/python ros2/tools/repair_cmake.py
 	@touch $@
 
-# planformer as its own environment has it, but built apart from it; the node as colcon installs it.
+# Editable: Python edits are live. Built apart from the environment that `make test` uses.
 $(PACKAGE_READY): $(WHEELS_READY) pyproject.toml CMakeLists.txt ros2/planformer_ros/setup.py \
     $(shell find cpp -name '*.cpp' -o -name '*.hpp') $(shell find src -name '__init__.py')
 	@echo "Building planformer into $(ROS_VENV)"
@@ -55,16 +57,19 @@ $(PACKAGE_READY): $(WHEELS_READY) pyproject.toml CMakeLists.txt ros2/planformer_
 	@$(PIP) install $(PIP_ARGS) --no-build-isolation --no-deps --editable ros2/planformer_ros
 	@touch $@
 
+# What it prints is of interest only if it fails.
+quietly = &>$(BUILT)/$(notdir $(1)).log || { cat $(BUILT)/$(notdir $(1)).log; exit 1; }
+
 define generate
 $(BUILT)/.stamp-$(notdir $(1)): $(WHEELS_READY) $(shell find $(1) -type f)
 	@echo "Generating $(notdir $(1))"
 	@mkdir -p $(PREFIX)
 	@ros2/tools/in_ros.sh $(ROS_VENV) $(PREFIX) cmake -S $(1) -B $(BUILT)/$(notdir $(1)) -G Ninja \
-	    --log-level=WARNING -DCMAKE_INSTALL_PREFIX=$(abspath $(PREFIX)) \
+	    -DCMAKE_INSTALL_PREFIX=$(abspath $(PREFIX)) \
 	    -DCMAKE_PREFIX_PATH="$(abspath $(PREFIX));$(abspath $(ROS_VENV))" \
-	    -DPython3_EXECUTABLE=$(BIN)/python -DBUILD_TESTING=OFF
+	    -DPython3_EXECUTABLE=$(BIN)/python -DBUILD_TESTING=OFF $(call quietly,$(1))
 	@ros2/tools/in_ros.sh $(ROS_VENV) $(PREFIX) cmake --build $(BUILT)/$(notdir $(1)) \
-	    --target install >$(BUILT)/$(notdir $(1)).log || { cat $(BUILT)/$(notdir $(1)).log; exit 1; }
+	    --target install $(call quietly,$(1))
 	@touch $$@
 endef
 $(foreach package,$(INTERFACES),$(eval $(call generate,$(package))))

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import threading
+import time
 import traceback
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any
 
 from geometry_msgs.msg import PoseStamped
@@ -12,8 +14,8 @@ from nav2_msgs.action import ComputePathToPose
 from nav_msgs.msg import Path
 from planformer import CancelToken
 from planformer.errors import PlanformerError
-from rclpy.action import ActionServer, CancelResponse, GoalResponse
-from rclpy.action.server import ServerGoalHandle
+from rclpy._rclpy_pybind11 import RCLError
+from rclpy.action.server import ActionServer, CancelResponse, GoalResponse, ServerGoalHandle
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.node import Node
 from std_msgs.msg import Header
@@ -27,9 +29,25 @@ from planformer_ros.transforms import Transforms, in_frame
 from planformer_ros.views import Views
 from planformer_ros.world import World
 
-Goal = ComputePathToPose.Goal
-Result = ComputePathToPose.Result
 Handle = ServerGoalHandle[Any, Any, Any]
+
+_PERIOD = 0.01
+"""Seconds between two looks at what another thread is about to change."""
+
+
+@dataclass
+class _Job:
+    """A goal in progress.
+
+    Attributes:
+        handle: The action's handle of it.
+        token: Ends its search.
+        cancelled_by_client: Whether its client asked for that, and not a newer goal.
+    """
+
+    handle: Handle
+    token: CancelToken
+    cancelled_by_client: bool = False
 
 
 class PathServer:
@@ -56,7 +74,7 @@ class PathServer:
         self._node, self._wiring, self._world = node, wiring, world
         self._transforms, self._settings, self._views = transforms, settings, views
         self._is_active = False
-        self._tokens: dict[bytes, CancelToken] = {}
+        self._jobs: dict[bytes, _Job] = {}
         self._lock = threading.Lock()
         self._planning = threading.Lock()
         self._server = ActionServer(
@@ -78,44 +96,64 @@ class PathServer:
         """Accept no more goals and give up those in progress."""
         self._is_active = False
         with self._lock:
-            for token in self._tokens.values():
-                token.cancel()
+            self._cancel_all()
 
     def destroy(self) -> None:
         """Take the action away."""
         self.deactivate()
         self._server.destroy()
 
-    def _on_goal(self, goal: Goal) -> GoalResponse:
+    def _cancel_all(self) -> None:
+        for job in self._jobs.values():
+            job.token.cancel()
+
+    def _on_goal(self, goal: ComputePathToPose.Goal) -> GoalResponse:
         del goal
         return GoalResponse.ACCEPT if self._is_active else GoalResponse.REJECT
 
     def _on_accepted(self, handle: Handle) -> None:
-        token = CancelToken()
+        job = _Job(handle, CancelToken())
         with self._lock:
-            for older in self._tokens.values():
-                older.cancel()
-            self._tokens[bytes(handle.goal_id.uuid)] = token
+            self._cancel_all()
+            if not self._is_active:  # since it was accepted
+                job.token.cancel()
+            self._jobs[_key(handle)] = job
         handle.execute()
 
     def _on_cancel(self, handle: Handle) -> CancelResponse:
         with self._lock:
-            token = self._tokens.get(bytes(handle.goal_id.uuid))
-        if token is not None:
-            token.cancel()
+            job = self._jobs.get(_key(handle))
+            if job is None:
+                return CancelResponse.REJECT
+            job.cancelled_by_client = True
+            job.token.cancel()
         return CancelResponse.ACCEPT
 
-    def _execute(self, handle: Handle) -> Result:
-        key = bytes(handle.goal_id.uuid)
+    def _execute(self, handle: Handle) -> ComputePathToPose.Result:
+        job = self._jobs[_key(handle)]
+        answer = self._answer_in_turn(handle.request, job.token)
+        with self._lock:  # from here on it is too late to cancel
+            del self._jobs[_key(handle)]
+        result = self._result(answer)
         try:
-            with self._planning:  # one that was replaced ends soon
-                answer = self._answer(handle.request, self._tokens[key])
-        finally:
-            with self._lock:
-                del self._tokens[key]
-        return self._finish(handle, answer)
+            self._end(job, answer, result)
+        except RCLError:
+            if self._node.context.ok():
+                raise
+            # Interrupted: ROS is gone already, and nobody can be told any more.
+        return result
 
-    def _answer(self, goal: Goal, token: CancelToken) -> PathAnswer:
+    def _answer_in_turn(self, goal: ComputePathToPose.Goal, token: CancelToken) -> PathAnswer:
+        """Wait for the goal that this one replaced, which ends soon, then answer."""
+        while not self._planning.acquire(timeout=_PERIOD):
+            if token.is_cancelled:
+                return PathAnswer(cancelled=True, message="cancelled before its turn came")
+        try:
+            return self._answer(goal, token)
+        finally:
+            self._planning.release()
+
+    def _answer(self, goal: ComputePathToPose.Goal, token: CancelToken) -> PathAnswer:
         try:
             start, target = self._start(goal), self._in_map(goal.goal)
         except PlanformerError as error:
@@ -128,7 +166,7 @@ class PathServer:
             self._node.get_logger().error(traceback.format_exc())
             return PathAnswer(code=ErrorCode.UNKNOWN, message=f"{type(error).__name__}: {error}")
 
-    def _start(self, goal: Goal) -> Pose:
+    def _start(self, goal: ComputePathToPose.Goal) -> Pose:
         if goal.use_start:
             return self._in_map(goal.start)
         robot, target = self._wiring.robot_base_frame, self._wiring.global_frame
@@ -138,28 +176,34 @@ class PathServer:
         target = self._wiring.global_frame
         return in_frame(pose_of(pose.pose), pose.header.frame_id, target, self._transforms)
 
-    def _finish(self, handle: Handle, answer: PathAnswer) -> Result:
+    def _result(self, answer: PathAnswer) -> ComputePathToPose.Result:
         header = Header(
             stamp=self._node.get_clock().now().to_msg(), frame_id=self._wiring.global_frame
         )
-        result = Result(
+        result = ComputePathToPose.Result(
             path=path_message(answer.poses, header),
             planning_time=duration_of(answer.seconds),
             error_code=int(answer.code),
         )
         if hasattr(result, "error_msg"):  # Jazzy's action has none
             result.error_msg = answer.message
-        if answer.cancelled and handle.is_cancel_requested:
-            handle.canceled()
-        elif answer.cancelled:  # replaced by a newer goal, or the node was deactivated
-            handle.abort()
+        return result
+
+    def _end(self, job: _Job, answer: PathAnswer, result: ComputePathToPose.Result) -> None:
+        """Bring the goal into the state that it ends in."""
+        if job.cancelled_by_client:
+            # It is once `_on_cancel` has returned, unless the action was taken away.
+            while job.handle.is_active and not job.handle.is_cancel_requested:
+                time.sleep(_PERIOD)
+            job.handle.canceled()
+        elif answer.cancelled:  # for a newer goal, or the node was deactivated
+            job.handle.abort()
         elif answer.code:
             self._node.get_logger().warning(f"no path ({answer.code.name}): {answer.message}")
-            handle.abort()
+            job.handle.abort()
         else:
             self._show(answer, result.path)
-            handle.succeed()
-        return result
+            job.handle.succeed()
 
     def _show(self, answer: PathAnswer, path: Path) -> None:
         self._views.show_path(path)
@@ -167,3 +211,7 @@ class PathServer:
             self._node.get_logger().info(f"planned on the whole map: {answer.fallback}")
         if answer.region is not None and answer.costmap is not None:
             self._views.show_region(answer.region, answer.costmap, path.header)
+
+
+def _key(handle: Handle) -> bytes:
+    return bytes(handle.goal_id.uuid)

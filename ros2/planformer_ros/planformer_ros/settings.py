@@ -87,7 +87,7 @@ class Settings:
     ] = 0.55
     planner: Annotated[
         str, About("planner for goals that name none: a class of OMPL, or MPNet or NEXT-KS")
-    ] = "RRTstar"
+    ] = "InformedRRTstar"
     planner_ids: Annotated[
         tuple[str, ...],
         About(
@@ -119,14 +119,14 @@ class Settings:
             "longest time until a path is there [s], the proposal and a fallback included",
             between=(0.01, 600.0),
         ),
-    ] = 0.5
+    ] = 1.0
     guided_share: Annotated[
         float,
         About(
             "share of the time limit for the search in the region, if there is a fallback",
             between=(0.05, 1.0),
         ),
-    ] = 0.7
+    ] = 0.5
     max_vertices: Annotated[
         int,
         About(
