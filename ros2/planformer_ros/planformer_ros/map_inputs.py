@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from typing import Any
 
 from map_msgs.msg import OccupancyGridUpdate
@@ -49,24 +48,23 @@ class MapInputs:
             self._node.destroy_subscription(subscription)
 
     def _on_map(self, message: OccupancyGrid) -> None:
-        with self._reporting(message.header):
-            self._world.set_map(costmap_of_map(message))
+        self._take(message.header, lambda: self._world.set_map(costmap_of_map(message)))
 
     def _on_costmap(self, message: OccupancyGrid) -> None:
-        with self._reporting(message.header):
-            self._world.set_costmap(costmap_of_published(message))
+        self._take(message.header, lambda: self._world.set_costmap(costmap_of_published(message)))
 
     def _on_update(self, message: OccupancyGridUpdate) -> None:
-        with self._reporting(message.header):
-            self._world.update_costmap(patch_of(message), message.x, message.y)
+        self._take(
+            message.header,
+            lambda: self._world.update_costmap(patch_of(message), message.x, message.y),
+        )
 
-    @contextmanager
-    def _reporting(self, header: Header) -> Iterator[None]:
-        """What is no map is reported and leaves the last one in place."""
+    def _take(self, header: Header, take: Callable[[], None]) -> None:
+        """Take a map; what is none is reported and leaves the last one in place."""
         frame = self._wiring.global_frame
         try:
             if header.frame_id != frame:
                 raise InvalidMap(f"its frame is {header.frame_id!r}, global_frame is {frame!r}")
-            yield
+            take()
         except PlanformerError as error:
             self._node.get_logger().warning(f"a map is ignored: {error}")
