@@ -139,8 +139,7 @@ void register_planning(nb::module_& m) {
         .def(
             "sample",
             [](const Region& self, std::size_t count, std::uint32_t seed, double focus) {
-                ompl::RNG rng;
-                rng.setLocalSeed(seed);
+                ompl::RNG rng(seed);
                 std::vector<Pose> poses(count);
                 for (Pose& pose : poses) pose = sample_region(self, rng, focus);
                 return to_numpy(poses);

@@ -127,7 +127,8 @@ Answer run(const Query& query, Clock::time_point started, ob::Planner& planner,
     answer.seconds = seconds_since(started);
     answer.vertices = count_vertices(planner);
     if (query.keep_tree) answer.tree = read_tree(planner);
-    planner.clear();  // the destructor of OMPL's LazyPRM* leaves its states
+    // The destructor of OMPL's LazyPRM* leaves its states; BIT* makes a generator when cleared.
+    seeded(query.seed, [&] { planner.clear(); });
     return answer;
 }
 

@@ -28,15 +28,18 @@ private:
 
 using SeedsPtr = std::shared_ptr<Seeds>;
 
+/// One lock for every construction in this process, recursive because constructing a planner may
+/// allocate samplers that are seeded as well. (A static in the template below would be one lock
+/// for each type of `make`.)
+inline std::recursive_mutex seeding_mutex;
+
 /// Runs `make` so that every OMPL object it constructs draws the same numbers for the same seed.
 ///
 /// OMPL seeds its generators from one process-wide sequence when they are constructed. Restarting
 /// the sequence under one lock round each construction makes parallel plans reproducible.
 template <typename Make>
 auto seeded(std::uint32_t seed, Make&& make) {
-    // Recursive: constructing a planner may allocate samplers that are seeded here as well.
-    static std::recursive_mutex mutex;
-    const std::lock_guard<std::recursive_mutex> lock(mutex);
+    const std::lock_guard<std::recursive_mutex> lock(seeding_mutex);
     ompl::RNG::setSeed(seed);
     return make();
 }

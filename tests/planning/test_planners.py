@@ -102,6 +102,26 @@ def test_the_seed_decides_the_result_also_in_parallel_threads(open_room, robot, 
     assert not np.array_equal(alone[0].tree.vertices, alone[1].tree.vertices)
 
 
+def test_other_searches_leave_a_seeded_one_alone(open_room):
+    """OMPL seeds all of a process's generators in turn, those of searches that end as well."""
+    searches = [
+        (random_problem(open_room, robot, 3), planner, seed)
+        for robot, planner in ((POINT, "BITstar"), (POINT, "RRTstar"), (DUBINS, "SST"))
+        for seed in (7, 8)
+    ]
+
+    def run(number):
+        problem, planner, seed = searches[number]
+        limits = SearchLimits(60.0, max_vertices=20)
+        return search(problem, planner, limits=limits, seed=seed, keep_tree=True).tree.vertices
+
+    alone = [run(number) for number in range(len(searches))]
+    numbers = np.random.default_rng(0).integers(len(searches), size=3000)
+    with ThreadPoolExecutor(8) as threads:
+        for number, vertices in zip(numbers, threads.map(run, numbers), strict=True):
+            np.testing.assert_array_equal(vertices, alone[number])
+
+
 def test_without_a_seed_each_search_is_another(open_room):
     problem = random_problem(open_room, POINT, 3)
     first, second = (search(problem, "RRTstar", limits=SMALL, keep_tree=True) for _ in range(2))
