@@ -4,7 +4,10 @@
 #include <cstddef>
 #include <cstdlib>
 #include <limits>
+#include <memory>
+#include <new>
 #include <utility>
+#include <vector>
 
 namespace planformer {
 namespace {
@@ -54,20 +57,28 @@ private:
     std::vector<std::uint8_t> free_;
 };
 
+struct FreeMemory {
+    void operator()(Length* memory) const { std::free(memory); }
+};
+
 /// Dijkstra's algorithm with buckets one cell of distance wide. No step costs less than 1, so no
 /// cell of a bucket can improve another one of it: their order is free (Denardo and Fox,
 /// Operations Research 27(1), 1979). No step costs 2 or more, so a third bucket is the last.
 class Wave {
 public:
-    explicit Wave(const PaddedGrid& grid) : grid_(grid), length_(grid.size(), kUnreached) {}
+    explicit Wave(const PaddedGrid& grid)
+        : grid_(grid),
+          length_plus_1_(static_cast<Length*>(std::calloc(grid.size(), sizeof(Length)))) {
+        if (!length_plus_1_) throw std::bad_alloc();
+    }
 
-    Length length(Cell cell) const { return length_[cell.index]; }
+    Length length(Cell cell) const { return length_plus_1_[cell.index] - 1; }
 
     /// Spreads from a cell over all but those where admit(cell), asked with the final length, is
     /// false.
     template <class Admit>
     void spread(Cell source, const Admit& admit) {
-        length_[source.index] = 0;
+        set_length(source, 0);
         spread(std::vector<Cell>{source}, admit);
     }
 
@@ -96,8 +107,10 @@ public:
     }
 
 private:
+    void set_length(Cell cell, Length length) { length_plus_1_[cell.index] = length + 1; }
+
     void expand(Cell cell) {
-        const Length length = length_[cell.index];
+        const Length length = this->length(cell);
         const auto step = [&](int rows, int cols, Length size) {
             return reach(grid_.beside(cell, rows, cols), length + size);
         };
@@ -114,15 +127,17 @@ private:
     /// Offers a cell a way of this length; returns whether the cell is free.
     bool reach(Cell cell, Length length) {
         if (!grid_.is_free(cell)) return false;
-        if (length < length_[cell.index]) {
-            length_[cell.index] = length;
+        if (length < this->length(cell)) {
+            set_length(cell, length);
             buckets_[(length - floor_) / kStraight].push_back(cell);
         }
         return true;
     }
 
     const PaddedGrid& grid_;
-    std::vector<Length> length_;
+    /// Zero, for kUnreached + 1, where the wave has not come: on a large map the system never makes
+    /// the pages of zeros that nothing touches.
+    std::unique_ptr<Length[], FreeMemory> length_plus_1_;
     std::vector<Cell> buckets_[3];
     Length floor_ = 0;  ///< Lower edge of the first bucket.
 };
@@ -147,7 +162,7 @@ std::vector<int> squares(int cells, int side) {
 ///
 /// The bound grows until it suffices: by A*'s argument, what is within a bound is exact.
 void spread_towards(Wave& wave, Cell source, Cell target, Length limit) {
-    Length bound = octile(source, target) / 10 * 11 + limit;
+    Length bound = octile(source, target) + limit;
     std::vector<Cell> stopped;
     const auto admit = [&](Cell cell) {
         if (wave.length(cell) + octile(cell, target) <= bound) return true;
@@ -158,7 +173,7 @@ void spread_towards(Wave& wave, Cell source, Cell target, Length limit) {
     while (!stopped.empty()) {
         const Length found = wave.length(target);
         if (found != kUnreached && found + limit <= bound) return;
-        bound = found != kUnreached ? found + limit : bound / 2 * 3;
+        bound = found != kUnreached ? found + limit : bound / 4 * 5;
         wave.spread(std::exchange(stopped, {}), admit);
     }
 }

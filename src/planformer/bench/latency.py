@@ -17,7 +17,7 @@ from planformer.bench.rows import Row, chosen_rows
 from planformer.bench.statistics import interval_of, median_of, percentile_90
 from planformer.bench.store import write_text
 from planformer.data.problems import random_problems
-from planformer.encoding import encode_query, network_map
+from planformer.encoding import encode_windows, network_map
 from planformer.errors import InvalidParameter
 from planformer.guidance import OnnxProposer, load_network, make_region
 from planformer.guidance.onnx import OnnxNetwork
@@ -107,15 +107,15 @@ def _measure(problem: Problem, network: OnnxNetwork) -> dict[str, float]:
     prediction = network.predict(problem)
     pixels = network_map(problem.blocked, grid.resolution, network.scale)
     ends = problem.local_start, problem.local_goal
-    inputs = {
-        "map": pixels[None, None],
-        "query": encode_query(pixels, *ends, network.scale)[None],
-    }
+    inputs = [
+        {"map": window.cut(pixels, network.scale.stride)[None, None], "query": query[None]}
+        for window, query in encode_windows(pixels, *ends, network.scale)
+    ]
     return {
         "first": _seconds(lambda: propose(fresh)),
         "repeated": _seconds(lambda: propose(grid)),
-        "query": _seconds(lambda: encode_query(pixels, *ends, network.scale)),
-        "network": _seconds(lambda: network.session.run(None, inputs)),
+        "query": _seconds(lambda: encode_windows(pixels, *ends, network.scale)),
+        "network": _seconds(lambda: [network.session.run(None, part) for part in inputs]),
         "region": _seconds(
             lambda: make_region(
                 problem,

@@ -8,7 +8,7 @@ from planformer.encoding.anchors import (
     anchor_points,
     region_mask,
 )
-from planformer.encoding.query import encode_query
+from planformer.encoding.query import encode_query, encode_windows
 from planformer.encoding.raster import network_map
 from planformer.encoding.scale import NetworkScale, QueryKind
 
@@ -21,6 +21,7 @@ __all__ = [
     "anchor_offsets",
     "anchor_points",
     "encode_query",
+    "encode_windows",
     "network_map",
     "region_mask",
 ]

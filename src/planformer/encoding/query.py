@@ -7,7 +7,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from planformer.encoding.scale import NetworkScale, QueryKind
 from planformer.encoding.wavefront import detours
+from planformer.encoding.window import Window, whole_map, windows_round
 from planformer.errors import InvalidParameter
+
+States = tuple[NDArray[np.float64], NDArray[np.float64]]
+"""Start and goal."""
 
 SQUARE_SIDE = 32
 """Side in pixels of the squares that mark start and goal in the paper's encoding."""
@@ -21,9 +25,12 @@ DISTANCE_SCALE = 10.0
 EXCESS_SCALE = 3.0
 """A detour of this many coarse cells more than the shortest dims a cell to 1/e."""
 
-POINT_DETOURS, CAR_DETOURS = 2.0, 5.0
+POINT_DETOURS, CAR_DETOURS = 1.5, 5.0
 """Cells further out of the way than this, in metres, tell a network nothing: it says the same of a
-point robot's way with 2 m as with 5 m, where a car's errs a little more with 3 m."""
+point robot's way with 1.5 m as with 5 m, where a car's errs a little more with 3 m."""
+
+_DETOUR = 2
+"""Which of the waves is the detour."""
 
 
 def encode_query(
@@ -44,13 +51,54 @@ def encode_query(
         InvalidParameter: A state lacks the yaw that the network needs or is no state at all.
     """
     states = _state("start", start, scale), _state("goal", goal, scale)
+    waves = _waves(pixels, states, scale)
+    return _channels(pixels, states, scale, waves, whole_map(pixels.shape, scale))
+
+
+def encode_windows(
+    pixels: NDArray[np.uint8], start: ArrayLike, goal: ArrayLike, scale: NetworkScale
+) -> list[tuple[Window, NDArray[np.float32]]]:
+    """Encode start and goal for a network that sees only the parts of the map that matter.
+
+    Where waves have told that every way is too long, nothing is left to predict; so the cost of a
+    prediction grows with the query rather than with the map.
+
+    Args:
+        pixels: As for `encode_query`, as are the others and the errors.
+        start: (x, y) or (x, y, yaw).
+        goal: As `start`.
+        scale: The network's scale.
+
+    Returns:
+        Windows to cut out of the map, each with its part of what `encode_query` gives. One window
+        of the whole map for networks that are shown no waves, and where no way joins start and
+        goal.
+    """
+    states = _state("start", start, scale), _state("goal", goal, scale)
+    waves = _waves(pixels, states, scale)
+    windows = [] if waves is None else windows_round(np.isfinite(waves[_DETOUR]), scale)
+    return [
+        (window, _channels(pixels, states, scale, waves, window))
+        for window in windows or [whole_map(pixels.shape, scale)]
+    ]
+
+
+def _channels(
+    pixels: NDArray[np.uint8],
+    states: States,
+    scale: NetworkScale,
+    waves: NDArray[np.float32] | None,
+    window: Window,
+) -> NDArray[np.float32]:
+    """(scale.query_channels, h, w) float32, the query in a window."""
     if scale.query is QueryKind.SQUARE:
         return _square_query(pixels.shape, states, scale)
-    markers = np.stack([_marker(pixels.shape, state, scale) for state in states])
-    free = _free_share(pixels, scale.query_stride)
+    markers = np.stack([_marker(window, state, scale) for state in states])
+    free = _free_share(window.cut(pixels, scale.stride), scale.query_stride)
     channels: list[NDArray[np.floating]] = [markers, free[None]]
-    if scale.query is QueryKind.WAVEFRONT:
-        channels.insert(1, _distance_channels(pixels, states, scale))
+    if waves is not None:
+        part = window.cut(waves, scale.stride // scale.query_stride)
+        channels.insert(1, _distance_channels(part, scale))
     if scale.headings:
         channels.append(
             np.concatenate(
@@ -74,7 +122,7 @@ def _direction(state: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _square_query(
-    shape: tuple[int, ...], states: tuple[NDArray[np.float64], ...], scale: NetworkScale
+    shape: tuple[int, ...], states: States, scale: NetworkScale
 ) -> NDArray[np.float32]:
     """The paper's encoding, section III.A: patches of -1 at the start and +1 at the goal."""
     query = np.zeros((scale.query_channels, *shape), np.float32)
@@ -92,18 +140,19 @@ def _patch(coordinate: float, scale: NetworkScale) -> slice:
     return slice(max(first, 0), max(first + SQUARE_SIDE, 0))
 
 
-def _marker(
-    shape: tuple[int, ...], state: NDArray[np.float64], scale: NetworkScale
-) -> NDArray[np.float64]:
+def _marker(window: Window, state: NDArray[np.float64], scale: NetworkScale) -> NDArray[np.float64]:
     """(h, w) Gaussian of the distance to a point, as far as a query pixel can tell."""
-    y, x = (
-        (np.arange(size // scale.query_stride) + 0.5) * scale.query_resolution for size in shape
-    )
-    bell_x, bell_y = (
-        np.exp(-0.5 * ((axis - at) / MARKER_SIGMA) ** 2)
-        for axis, at in ((x, state[0]), (y, state[1]))
+    side = scale.stride // scale.query_stride
+    bell_y, bell_x = (
+        np.exp(-0.5 * ((_centres(part, side, scale) - at) / MARKER_SIGMA) ** 2)
+        for part, at in zip((window.rows, window.cols), state[1::-1], strict=True)
     )
     return np.outer(bell_y, bell_x)
+
+
+def _centres(tokens: slice, side: int, scale: NetworkScale) -> NDArray[np.float64]:
+    """The middles, in metres, of the query pixels of some tokens along one axis."""
+    return (np.arange(side * tokens.start, side * tokens.stop) + 0.5) * scale.query_resolution
 
 
 def _free_share(pixels: NDArray[np.uint8], side: int) -> NDArray[np.float64]:
@@ -116,15 +165,26 @@ def _free_share(pixels: NDArray[np.uint8], side: int) -> NDArray[np.float64]:
     return free
 
 
-def _distance_channels(
-    pixels: NDArray[np.uint8], states: tuple[NDArray[np.float64], ...], scale: NetworkScale
-) -> NDArray[np.float32]:
-    """(3, h, w): how far from the start, how far from the goal, how small the detour.
+def _distance_channels(waves: NDArray[np.float32], scale: NetworkScale) -> NDArray[np.floating]:
+    """(3, h, w): how far from the start, how far from the goal, how small the detour."""
+    reach = DISTANCE_SCALE / scale.query_resolution
+    return np.concatenate(
+        [np.tanh(waves[:_DETOUR] / reach), np.exp(-waves[_DETOUR:] / EXCESS_SCALE)]
+    )
 
-    The distances are those of the map's full resolution: cells as coarse as the query's would close
-    narrow gaps or open thin walls, and the shortest way often leads through a narrow gap. Pixels
-    too far out of the way look as if they were infinitely far, which saves much of the search.
+
+def _waves(
+    pixels: NDArray[np.uint8], states: States, scale: NetworkScale
+) -> NDArray[np.float32] | None:
+    """(3, h, w) distance from start and goal and detour, in query pixels, of the whole map.
+
+    They are those of the map's full resolution: cells as coarse as the query's would close narrow
+    gaps or open thin walls, and the shortest way often leads through a narrow gap. Pixels too far
+    out of the way look as if they were infinitely far, which saves much of the search. None for a
+    network that is shown no waves.
     """
+    if scale.query is not QueryKind.WAVEFRONT:
+        return None
     side = scale.query_stride
     limit = CAR_DETOURS if scale.headings else POINT_DETOURS
     found = _detours(pixels > 0, states, scale.resolution, limit, side)
@@ -132,15 +192,12 @@ def _distance_channels(
         # Resampling has closed the way, or there is none: any free pixel opens a query pixel.
         coarse = _free_share(pixels, side) == 0.0
         found = _detours(coarse, states, scale.query_resolution, limit, 1)
-    if found is None:
-        found = np.full((3, *coarse.shape), np.inf, np.float32)
-    reach = DISTANCE_SCALE / scale.query_resolution
-    return np.concatenate([np.tanh(found[:2] / reach), np.exp(-found[2:] / EXCESS_SCALE)])
+    return np.full((3, *coarse.shape), np.inf, np.float32) if found is None else found
 
 
 def _detours(
     blocked: NDArray[np.bool_],
-    states: tuple[NDArray[np.float64], ...],
+    states: States,
     resolution: float,
     limit: float,
     side: int,

@@ -12,7 +12,7 @@ import numpy as np
 import onnxruntime
 from numpy.typing import NDArray
 
-from planformer.encoding import NetworkScale, encode_query, network_map
+from planformer.encoding import NetworkScale, encode_windows, network_map
 from planformer.errors import InvalidParameter, InvalidWeights, WeightsMismatch
 from planformer.guidance.region import Region, make_region
 from planformer.guidance.weights import scale_of, weights_path
@@ -67,20 +67,37 @@ class OnnxNetwork:
                 f"the weights {self.weights.name} need start and goal headings, which a "
                 f"{type(problem.robot).__name__} does not have; use weights for a point robot"
             )
-        pixels = network_map(problem.blocked, problem.grid.resolution, scale)
-        query = encode_query(pixels, problem.local_start, problem.local_goal, scale)
-        outputs = self._run({"map": pixels[None, None], "query": query[None]})
-        self._check(outputs, tuple(size // scale.stride for size in pixels.shape))
-        prediction = Prediction(outputs.pop(0)[0, 0])
+        outputs = self._outputs(problem)
+        prediction = Prediction(outputs.pop(0)[0])
         if scale.headings:
-            x, y = outputs.pop(0)[0].astype(np.float64)
+            x, y = outputs.pop(0).astype(np.float64)
             # The circular variance of a von Mises distribution nears 1 / concentration.
             spread = np.clip(np.hypot(x, y), *_CONCENTRATIONS) ** -0.5
             prediction = prediction._replace(headings=np.arctan2(y, x), yaw_deviations=spread)
         if scale.offsets:
-            vectors = outputs.pop(0)[0].astype(np.float64)
+            vectors = outputs.pop(0).astype(np.float64)
             prediction = prediction._replace(offsets=np.moveaxis(vectors, 0, -1))
         return prediction
+
+    def _outputs(self, problem: Problem) -> list[NDArray[np.float32]]:
+        """Arrays (channels, h, w) for the whole map, zero where nothing needs a prediction."""
+        scale = self.scale
+        pixels = network_map(problem.blocked, problem.grid.resolution, scale)
+        tokens = [size // scale.stride for size in pixels.shape]
+        outputs = [np.zeros((channels, *tokens), np.float32) for channels in self._output_channels]
+        ends = problem.local_start, problem.local_goal
+        for window, query in encode_windows(pixels, *ends, scale):
+            seen = window.cut(pixels, scale.stride)
+            predicted = self._run({"map": seen[None, None], "query": query[None]})
+            self._check(predicted, window.shape)
+            for whole, part in zip(outputs, predicted, strict=True):
+                window.paste(part[0], whole)
+        return outputs
+
+    @property
+    def _output_channels(self) -> list[int]:
+        """One for the probability, two for a heading and for an offset."""
+        return [1, *[2] * (self.scale.headings + self.scale.offsets)]
 
     def _run(self, inputs: dict[str, NDArray[Any]]) -> list[NDArray[np.float32]]:
         try:
@@ -92,8 +109,7 @@ class OnnxNetwork:
         return outputs
 
     def _check(self, outputs: list[NDArray[np.float32]], tokens: tuple[int, ...]) -> None:
-        vectors = self.scale.headings + self.scale.offsets
-        expected = [(1, 1, *tokens), *[(1, 2, *tokens)] * vectors]
+        expected = [(1, channels, *tokens) for channels in self._output_channels]
         shapes = [np.shape(output) for output in outputs]
         if shapes != expected:
             raise WeightsMismatch(
