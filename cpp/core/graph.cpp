@@ -8,6 +8,7 @@
 #include <ompl/geometric/planners/informedtrees/aitstar/Vertex.h>
 #include <ompl/geometric/planners/informedtrees/bitstar/ImplicitGraph.h>
 #include <ompl/geometric/planners/informedtrees/bitstar/Vertex.h>
+#include <ompl/geometric/planners/rrt/RRTstar.h>
 
 #include <mutex>
 #include <unordered_map>
@@ -40,6 +41,12 @@ struct AitTag {
     friend constexpr auto graph_member(AitTag);
 };
 template struct Expose<AitTag, &og::AITstar::graph_>;
+
+// RRT* would copy its whole tree to tell how large it is.
+struct RrtTag {
+    friend constexpr auto graph_member(RrtTag);
+};
+template struct Expose<RrtTag, &og::RRTstar::nn_>;
 
 /// What BIT* and AIT* call the same things.
 struct BitGraph {
@@ -129,6 +136,9 @@ std::size_t count_vertices(const ob::Planner& planner) {
     }
     if (const auto* ait = dynamic_cast<const og::AITstar*>(&planner)) {
         return AitGraph::vertices(*ait).size();
+    }
+    if (const auto* rrt = dynamic_cast<const og::RRTstar*>(&planner)) {
+        return (rrt->*graph_member(RrtTag{}))->size();
     }
     ob::PlannerData data(planner.getSpaceInformation());
     copy_graph(planner, &data);
