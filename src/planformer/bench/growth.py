@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import resource
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import closing
@@ -14,9 +13,14 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from planformer.bench.environment import environment
-from planformer.bench.reporting import SUMMARY, TABLE, interval_cell, markdown_table, session_line
+from planformer.bench.reporting import (
+    interval_cell,
+    markdown_table,
+    millisecond_cell,
+    session_line,
+    write_summary,
+)
 from planformer.bench.statistics import median_of, percent_of
-from planformer.bench.store import write_text
 from planformer.bench.tables.systems import POINT_SYSTEMS, GuidedPlanner
 from planformer.bench.workers import Died, work_through
 from planformer.data.experts import shortest_path
@@ -79,11 +83,8 @@ def run_growth(
             if report:
                 report((number + 1) * problems, len(sizes) * problems)
     summary = {"sessions": [environment()], "lines": lines}
-    folder = Path(folder)
-    folder.mkdir(parents=True, exist_ok=True)
-    write_text(folder / SUMMARY, json.dumps(summary, indent=2, allow_nan=False) + "\n")
-    write_text(folder / TABLE, markdown(summary))
-    save_picture(plot(summary), folder / "growth.png")
+    write_summary(folder, summary, markdown(summary))
+    save_picture(plot(summary), Path(folder) / "growth.png")
     return summary
 
 
@@ -130,8 +131,8 @@ def markdown(summary: Mapping[str, Any]) -> str:
             f"{line['size']:,}",
             line["system"],
             interval_cell(line["solved_percent"], ".0f", with_ends=True),
-            _milliseconds(line["seconds"]),
-            _milliseconds(line["proposal_seconds"]),
+            millisecond_cell(line["seconds"]),
+            millisecond_cell(line["proposal_seconds"]) if line["proposal_seconds"] else "",
             f"{line['memory_mb']:.0f}",
         ]
         for line in summary["lines"]
@@ -143,13 +144,6 @@ def markdown(summary: Mapping[str, Any]) -> str:
     )
     sessions = [f"- {session_line(session)}" for session in summary["sessions"]]
     return "\n".join([markdown_table(header, rows), "", caption, "", *sessions]) + "\n"
-
-
-def _milliseconds(interval: Mapping[str, float] | None) -> str:
-    if interval is None:
-        return ""
-    scaled = {end: 1e3 * value for end, value in interval.items()}
-    return interval_cell(scaled, ".1f", with_ends=True)
 
 
 def plot(summary: Mapping[str, Any]) -> Figure:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import time
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -12,10 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planformer.bench.environment import environment
-from planformer.bench.reporting import SUMMARY, TABLE, interval_cell, markdown_table, session_line
+from planformer.bench.reporting import (
+    markdown_table,
+    millisecond_cell,
+    session_line,
+    write_summary,
+)
 from planformer.bench.rows import Row, chosen_rows
 from planformer.bench.statistics import interval_of, median_of, percentile_90
-from planformer.bench.store import write_text
 from planformer.data.problems import random_problems
 from planformer.encoding import encode_windows, network_map
 from planformer.errors import InvalidParameter
@@ -72,10 +75,7 @@ def run_latency(
                 report(number * problems + index + 1, len(ROWS) * problems)
         lines.append(_line(row, network, times))
     summary = {"sessions": [environment()], "lines": lines}
-    folder = Path(folder)
-    folder.mkdir(parents=True, exist_ok=True)
-    write_text(folder / SUMMARY, json.dumps(summary, indent=2, allow_nan=False) + "\n")
-    write_text(folder / TABLE, markdown(summary))
+    write_summary(folder, summary, markdown(summary))
     return summary
 
 
@@ -161,9 +161,5 @@ def markdown(summary: Mapping[str, Any]) -> str:
 
 
 def _cell(line: Mapping[str, Any], stage: str) -> str:
-    median, high = (
-        {end: 1e3 * value for end, value in line[part][stage].items()}
-        for part in ("seconds", "seconds_p90")
-    )
-    ends = interval_cell(median, ".2f", with_ends=True)
-    return f"{ends} / {interval_cell(high, '.2f', with_ends=False)}"
+    high = 1e3 * line["seconds_p90"][stage]["value"]
+    return f"{millisecond_cell(line['seconds'][stage], '.2f')} / {high:.2f}"

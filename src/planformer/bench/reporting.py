@@ -24,11 +24,18 @@ def write_files(
     table: str,
 ) -> None:
     """Write summary.json, table.md and problems.csv.gz into the folder of the results."""
-    write_text(results.path / SUMMARY, json.dumps(summary, indent=2, allow_nan=False) + "\n")
-    write_text(results.path / TABLE, table)
+    write_summary(results.path, summary, table)
     with whole_file(results.path / PROBLEMS) as file:
         # Without the time in it, so that the same records make the same file.
         file.write(gzip.compress(to_csv(records, results.kind).encode(), mtime=0))
+
+
+def write_summary(folder: str | Path, summary: Mapping[str, Any], table: str) -> None:
+    """Write summary.json and table.md into a folder, which is made if it is missing."""
+    folder = Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    write_text(folder / SUMMARY, json.dumps(summary, indent=2, allow_nan=False) + "\n")
+    write_text(folder / TABLE, table)
 
 
 def read_summary(folder: Path) -> dict[str, Any]:
@@ -80,6 +87,12 @@ def interval_cell(interval: Mapping[str, float | None], style: str, *, with_ends
         for end in ("value", "low", "high")
     )
     return value if not with_ends or low == high == value else f"{value} [{low}, {high}]"
+
+
+def millisecond_cell(interval: Mapping[str, float], style: str = ".1f") -> str:
+    """A time in seconds with the ends of its interval, in milliseconds."""
+    scaled = {end: 1e3 * value for end, value in interval.items()}
+    return interval_cell(scaled, style, with_ends=True)
 
 
 def causes_line(causes: Mapping[str, int]) -> str:

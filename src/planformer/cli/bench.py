@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -193,54 +194,42 @@ bench_app.command("all", help="All tables. Ctrl-C keeps what is measured.")(
 )
 
 
-@bench_app.command("latency")
-def latency_command(
-    problems: Annotated[int, typer.Option(help="Problems in each row.")] = 100,
-    output: Annotated[Path, typer.Option(metavar="FOLDER", help="Folder of the results.")] = Path(
-        "bench_latency"
-    ),
-    seed: Annotated[int, typer.Option(help="Seed of maps and problems.")] = 0,
-    as_json: Annotated[
-        bool, typer.Option("--json", help="Print the summary as JSON and nothing else.")
-    ] = False,
-) -> None:
-    """Time the proposal of regions and its stages.
+def _measurement_command(name: str, default: int) -> Callable[..., None]:
+    """The command of the module planformer.bench.NAME, which has run_NAME and markdown."""
 
-    Example: planformer bench latency --problems 20
-    """
-    from planformer.bench.latency import markdown, run_latency
+    def command(
+        problems: Annotated[int, typer.Option(help="Problems in each row.")] = default,
+        output: Annotated[
+            Path, typer.Option(metavar="FOLDER", help="Folder of the results.")
+        ] = Path(f"bench_{name}"),
+        seed: Annotated[int, typer.Option(help="Seed of maps and problems.")] = 0,
+        as_json: Annotated[
+            bool, typer.Option("--json", help="Print the summary as JSON and nothing else.")
+        ] = False,
+    ) -> None:
+        module = importlib.import_module(f"planformer.bench.{name}")
+        with _progress_bar() as show:
+            summary = getattr(module, f"run_{name}")(
+                output, problems=problems, seed=seed, report=show
+            )
+        if as_json:
+            print_json(summary)
+        else:
+            stdout.print(module.markdown(summary), markup=False, soft_wrap=True)
 
-    with _progress_bar() as show:
-        summary = run_latency(output, problems=problems, seed=seed, report=show)
-    if as_json:
-        print_json(summary)
-    else:
-        stdout.print(markdown(summary), markup=False, soft_wrap=True)
+    return command
 
 
-@bench_app.command("growth")
-def growth_command(
-    problems: Annotated[int, typer.Option(help="Problems of each size.")] = 20,
-    output: Annotated[Path, typer.Option(metavar="FOLDER", help="Folder of the results.")] = Path(
-        "bench_growth"
-    ),
-    seed: Annotated[int, typer.Option(help="Seed of maps and problems.")] = 0,
-    as_json: Annotated[
-        bool, typer.Option("--json", help="Print the summary as JSON and nothing else.")
-    ] = False,
-) -> None:
-    """Time planners on forests of 240 to 3,840 cells a side, with a plot.
+_MEASUREMENTS = {
+    "latency": (100, "Time the proposal of regions and its stages."),
+    "growth": (20, "Time planners on forests of 240 to 3,840 cells a side, with a plot."),
+    "deadlines": (100, "Measure by how much searches overrun their time limit."),
+    "throughput": (1000, "Count proposals and plans a second, on one map and on many."),
+}
 
-    Example: planformer bench growth --problems 5
-    """
-    from planformer.bench.growth import markdown, run_growth
-
-    with _progress_bar() as show:
-        summary = run_growth(output, problems=problems, seed=seed, report=show)
-    if as_json:
-        print_json(summary)
-    else:
-        stdout.print(markdown(summary), markup=False, soft_wrap=True)
+for _name, (_default, _help) in _MEASUREMENTS.items():
+    _example = f"Example: planformer bench {_name} --problems {_default // 5}"
+    bench_app.command(_name, help=f"{_help}\n\n{_example}")(_measurement_command(_name, _default))
 
 
 @bench_app.command("plot")
