@@ -13,11 +13,13 @@ from planformer import errors
 from planformer.errors import PlanformerError
 
 if TYPE_CHECKING:
+    from planformer.api import default_planner as default_planner
     from planformer.api import plan as plan
     from planformer.api import planner_names as planner_names
     from planformer.api import propose_region as propose_region
     from planformer.guidance import Region as Region
     from planformer.guidance import RegionProposer as RegionProposer
+    from planformer.guidance import default_guide as default_guide
     from planformer.guidance import guide_names as guide_names
     from planformer.maps import OccupancyGrid as OccupancyGrid
     from planformer.maps import generate_forest as generate_forest
@@ -50,6 +52,8 @@ _HOME = {
     "ReedsSheppCar": "robots",
     "Region": "guidance",
     "RegionProposer": "guidance",
+    "default_guide": "guidance",
+    "default_planner": "api",
     "generate_forest": "maps",
     "generate_indoor": "maps",
     "generate_maze": "maps",

@@ -10,11 +10,11 @@ from typing import cast
 from planformer import planning
 from planformer.baselines import learned_planner_names, load_planner
 from planformer.errors import UnknownPlanner
-from planformer.guidance import Region, RegionProposer, resolve_guide
+from planformer.guidance import AUTO, Region, RegionProposer, resolve_guide
 from planformer.maps import OccupancyGrid
 from planformer.planning import CancelToken, PlanResult, Problem, SearchLimits, search
 from planformer.planning.problem import State
-from planformer.robots import Robot
+from planformer.robots import DubinsCar, Robot
 
 
 def plan(
@@ -23,8 +23,8 @@ def plan(
     start: Sequence[float],
     goal: Sequence[float],
     *,
-    planner: str = "RRTstar",
-    guide: str | RegionProposer | None = "mpt",
+    planner: str = AUTO,
+    guide: str | RegionProposer | None = AUTO,
     threshold: float | None = None,
     exploration: float = 0.0,
     time_limit: float | None = 5.0,
@@ -44,10 +44,11 @@ def plan(
         robot: A `PointRobot`, `DubinsCar` or `ReedsSheppCar`.
         start: (x, y) or, for a car, (x, y, yaw) in the world frame, metres and rad.
         goal: As the start.
-        planner: OMPL class name, or a learned planner that plans by itself (MPNet, NEXT-KS);
-            `planner_names(robot)` lists them.
-        guide: Name of shipped weights, path of an .onnx file, a `RegionProposer`, or None for an
-            unguided planner. A learned planner does without, and without threshold and exploration.
+        planner: "auto" for `default_planner`, an OMPL class name, or a learned planner that plans
+            by itself (MPNet, NEXT-KS); `planner_names(robot)` lists them.
+        guide: "auto" for `default_guide`, the name of shipped weights, the path of an .onnx file, a
+            `RegionProposer`, or None for an unguided planner. A learned planner does without, and
+            without threshold and exploration.
         threshold: Probability above which an anchor belongs to the region: 0.5 as in the paper, or
             None to choose the one that connects start and goal in this query. Only for a guide
             given by name.
@@ -70,6 +71,8 @@ def plan(
     """
     problem = Problem(grid, robot, cast(State, start), cast(State, goal))
     limits = SearchLimits(time_limit, target_length, max_vertices)
+    if planner == AUTO:
+        planner = default_planner(robot, guided=guide is not None)
     if planner in learned_planner_names(robot):
         return load_planner(planner).search(problem, limits=limits, seed=seed, cancel=cancel)
     if planner not in (names := planner_names(robot)):
@@ -80,7 +83,7 @@ def plan(
     region, seconds = None, 0.0
     if guide is not None:
         started = time.perf_counter()
-        region = resolve_guide(guide, threshold).propose(problem)
+        region = resolve_guide(guide, robot, threshold).propose(problem)
         seconds = time.perf_counter() - started
     result = search(
         problem,
@@ -95,6 +98,16 @@ def plan(
     return dataclasses.replace(result, region=region, proposal_seconds=seconds)
 
 
+def default_planner(robot: Robot, *, guided: bool = True) -> str:
+    """The planner that was fastest for a robot in our benchmarks (docs/performance.md).
+
+    Args:
+        robot: The robot.
+        guided: Whether it will search in a region.
+    """
+    return "BITstar" if guided and not isinstance(robot, DubinsCar) else "InformedRRTstar"
+
+
 def planner_names(robot: Robot) -> list[str]:
     """Names of the planners that `plan` has for a robot: OMPL's classes, then the learned ones."""
     return [*planning.planner_names(robot), *learned_planner_names(robot)]
@@ -106,9 +119,9 @@ def propose_region(
     start: Sequence[float],
     goal: Sequence[float],
     *,
-    guide: str | RegionProposer = "mpt",
+    guide: str | RegionProposer = AUTO,
     threshold: float | None = None,
 ) -> Region:
     """Propose where on the map a good path runs, without planning; arguments as in `plan`."""
     problem = Problem(grid, robot, cast(State, start), cast(State, goal))
-    return resolve_guide(guide, threshold).propose(problem)
+    return resolve_guide(guide, robot, threshold).propose(problem)

@@ -9,7 +9,7 @@ from typing import Any
 
 from planformer.api import plan, propose_region
 from planformer.errors import UnknownGuide
-from planformer.guidance import Region, RegionProposer, resolve_guide
+from planformer.guidance import AUTO, Region, RegionProposer, resolve_guide
 from planformer.maps import OccupancyGrid
 from planformer.planning import PlanResult
 from planformer.robots import Robot
@@ -39,12 +39,12 @@ class MapSession:
         grid: OccupancyGrid,
         robot: Robot,
         *,
-        guide: str | RegionProposer | None = "mpt",
+        guide: str | RegionProposer | None = AUTO,
         threshold: float | None = None,
     ) -> None:
         self._grid = grid
         self._robot = robot
-        self._guide = None if guide is None else resolve_guide(guide, threshold)
+        self._guide = None if guide is None else resolve_guide(guide, robot, threshold)
 
     @property
     def grid(self) -> OccupancyGrid:

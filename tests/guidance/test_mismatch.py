@@ -96,9 +96,9 @@ def test_a_proposer_has_its_own_threshold(room, make_weights):
 def test_without_a_selected_anchor_the_whole_map_is_searched(room, make_weights):
     guide = str(make_weights(0.4))
     ends = room.start, room.goal
-    limits = {"target_length": 100.0, "time_limit": 60.0, "seed": 1}
-    guided = pf.plan(room.grid, room.robot, *ends, guide=guide, threshold=0.5, **limits)
-    unguided = pf.plan(room.grid, room.robot, *ends, guide=None, **limits)
+    search = {"planner": "RRTstar", "target_length": 100.0, "time_limit": 60.0, "seed": 1}
+    guided = pf.plan(room.grid, room.robot, *ends, guide=guide, threshold=0.5, **search)
+    unguided = pf.plan(room.grid, room.robot, *ends, guide=None, **search)
     assert not guided.region.connected
     np.testing.assert_array_equal(guided.path, unguided.path)
 

@@ -152,10 +152,36 @@ def test_the_same_seed_gives_the_same_guided_path(room):
     np.testing.assert_array_equal(*paths)
 
 
+@pytest.mark.parametrize(
+    ("robot", "planner", "unguided", "guide"),
+    [
+        (pf.PointRobot(radius=0.1), "BITstar", "InformedRRTstar", "mpt"),
+        (pf.DubinsCar(radius=0.1, turning_radius=0.3), *["InformedRRTstar"] * 2, "mpt-dubins"),
+        (pf.ReedsSheppCar(radius=0.1, turning_radius=0.3), *["InformedRRTstar"] * 2, "mpt-dubins"),
+    ],
+)
+def test_defaults_suit_the_robot(room, robot, planner, unguided, guide):
+    assert pf.default_guide(robot) == guide
+    assert pf.default_planner(robot) == planner
+    assert pf.default_planner(robot, guided=False) == unguided
+    yaws = () if robot.state_dimension == 2 else (1.5,)
+    ends = (*room.start, *yaws), (*room.goal, *yaws)
+    limits = {"max_vertices": 200, "seed": 1, "keep_tree": True}
+    by_default = pf.plan(room.grid, robot, *ends, **limits)
+    named = pf.plan(room.grid, robot, *ends, planner=planner, guide=guide, **limits)
+    np.testing.assert_array_equal(by_default.tree.vertices, named.tree.vertices)
+    session = pf.MapSession(room.grid, robot)
+    np.testing.assert_array_equal(session.plan(*ends, **limits).path, named.path)
+    region = pf.propose_region(room.grid, robot, *ends)
+    np.testing.assert_array_equal(region.probability, named.region.probability)
+
+
 def test_a_car_is_guided_by_weights_without_headings(room):
     car = pf.DubinsCar(radius=0.1, turning_radius=0.3)
     start, goal = (*room.start, 1.5), (*room.goal, -1.5)
-    result = pf.plan(room.grid, car, start, goal, target_length=100.0, time_limit=30.0, seed=1)
+    result = pf.plan(
+        room.grid, car, start, goal, guide="mpt", target_length=100.0, time_limit=30.0, seed=1
+    )
     assert result.solved
     assert result.region.headings is None
     _same_ends(result, start, goal)

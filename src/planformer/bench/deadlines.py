@@ -15,11 +15,11 @@ from planformer.bench.problems import BenchProblem, make_problem
 from planformer.bench.reporting import markdown_table, session_line, write_summary
 from planformer.bench.rows import chosen_rows
 from planformer.errors import InvalidParameter
-from planformer.guidance import resolve_guide
+from planformer.guidance import AUTO, resolve_guide
 from planformer.planning import SearchLimits, search
 
-ROWS = {"maze-480": "mpt", "dubins-forest-480": "mpt-dubins"}
-"""Where planners work until their limit, and with which guide."""
+ROWS = ("maze-480", "dubins-forest-480")
+"""Where planners work until their limit."""
 
 PLANNERS = ("RRTstar", "InformedRRTstar", "BITstar")
 LIMITS = (0.02, 0.1, 0.5)
@@ -57,11 +57,11 @@ def run_deadlines(
     if problems < 1:
         raise InvalidParameter(f"problems must be >= 1; got {problems}")
     lines = []
-    for number, row in enumerate(chosen_rows(tuple(ROWS), None)):
+    for number, row in enumerate(chosen_rows(ROWS, None)):
         overruns: dict[tuple[str, float], list[float]] = {}
         for index in range(problems):
             of_row = make_problem(row, index, seed)
-            for key, seconds in _measure(of_row, ROWS[row.name]).items():
+            for key, seconds in _measure(of_row).items():
                 overruns.setdefault(key, []).append(seconds)
             if report:
                 report(number * problems + index + 1, len(ROWS) * problems)
@@ -71,10 +71,10 @@ def run_deadlines(
     return summary
 
 
-def _measure(of_row: BenchProblem, guide: str) -> dict[tuple[str, float], float]:
+def _measure(of_row: BenchProblem) -> dict[tuple[str, float], float]:
     """Seconds beyond the limit for each planner and limit."""
     problem = of_row.problem
-    region = resolve_guide(guide).propose(problem).sampling()
+    region = resolve_guide(AUTO, problem.robot).propose(problem).sampling()
     overruns = {}
     for planner in PLANNERS:
         for limit in LIMITS:

@@ -52,11 +52,18 @@ def plan_command(
         float | None, typer.Option(help="Tightest circle of a car in metres. Default: 0.55.")
     ] = None,
     planner: Annotated[
-        str, typer.Option(help="OMPL class name; `planformer info` lists them.")
-    ] = "RRTstar",
+        str,
+        typer.Option(
+            help="OMPL class name; `planformer info` lists them. Default: the best for the robot."
+        ),
+    ] = "auto",
     guide: Annotated[
-        str, typer.Option(help="Shipped weights, the path of an .onnx file, or 'none'.")
-    ] = "mpt",
+        str,
+        typer.Option(
+            help="Shipped weights, the path of an .onnx file, or 'none'. "
+            "Default: the weights for the robot."
+        ),
+    ] = "auto",
     threshold: Annotated[
         float | None,
         typer.Option(
@@ -106,9 +113,10 @@ def plan_command(
     """
     import numpy as np
 
-    from planformer.api import plan
+    from planformer.api import default_planner, plan
     from planformer.cli.interrupt import stoppable
     from planformer.cli.report import PlanReport, require_writable
+    from planformer.guidance import AUTO, default_guide
     from planformer.maps import load_map
 
     ends = parse_state(start, "--start"), parse_state(goal, "--goal")
@@ -117,7 +125,9 @@ def plan_command(
     folder = output if output or as_json else Path(f"{map_file.stem}_plan")
     if folder is not None:
         require_writable(folder)  # before the search, not after it
-    weights = None if guide == _UNGUIDED else guide
+    weights = None if guide == _UNGUIDED else default_guide(body) if guide == AUTO else guide
+    if planner == AUTO:
+        planner = default_planner(body, guided=weights is not None)
     seed = int(np.random.default_rng().integers(2**32)) if seed is None else seed
     with stderr.status(f"Planning for at most {time_limit:g} s; Ctrl-C keeps the best path"):
         result = stoppable(

@@ -7,7 +7,12 @@ from typing import Protocol, runtime_checkable
 from planformer.errors import InvalidParameter, UnknownGuide
 from planformer.guidance.onnx import OnnxProposer, load_network
 from planformer.guidance.region import Region
+from planformer.guidance.weights import default_guide
 from planformer.planning import Problem
+from planformer.robots import Robot
+
+AUTO = "auto"
+"""As the name of a guide or planner: the one recommended for the robot."""
 
 
 @runtime_checkable
@@ -19,13 +24,22 @@ class RegionProposer(Protocol):
         ...
 
 
-def resolve_guide(guide: str | RegionProposer, threshold: float | None = None) -> RegionProposer:
+def resolve_guide(
+    guide: str | RegionProposer, robot: Robot, threshold: float | None = None
+) -> RegionProposer:
     """Turn the name of shipped weights or the path of an .onnx file into a proposer.
+
+    Args:
+        guide: `AUTO`, another name, a path, or a proposer, which is returned as it is.
+        robot: The robot that `AUTO` chooses for.
+        threshold: As in `OnnxProposer`.
 
     Raises:
         UnknownGuide: The name is unknown, or the object cannot propose regions.
         InvalidParameter: A threshold is out of range, or given for an object that has its own.
     """
+    if guide == AUTO:
+        guide = default_guide(robot)
     if isinstance(guide, str):
         return OnnxProposer(load_network(guide), threshold)
     if not isinstance(guide, RegionProposer):

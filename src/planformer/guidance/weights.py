@@ -6,6 +6,7 @@ from pathlib import Path
 
 from planformer.encoding import NetworkScale
 from planformer.errors import InvalidParameter, InvalidWeights, UnknownGuide
+from planformer.robots import DubinsCar, Robot
 from planformer.weights import SHIPPED, Weights
 
 ALIASES = {
@@ -23,6 +24,11 @@ def guide_names() -> list[str]:
     """Names of the shipped weights, aliases first."""
     names = sorted(path.stem for path in SHIPPED.glob("*.onnx"))
     return [*(alias for alias, name in ALIASES.items() if name in names), *names]
+
+
+def default_guide(robot: Robot) -> str:
+    """Name of the weights recommended for a robot: those for cars know headings."""
+    return "mpt-dubins" if isinstance(robot, DubinsCar) else "mpt"
 
 
 def weights_path(guide: str) -> Path:
