@@ -95,12 +95,12 @@ class _Parts:
             return node.settings
 
         world = World()
-        transforms = make_transforms(node, node.wiring.transform_timeout)
+        self._transforms = make_transforms(node, node.wiring.transform_timeout)
         self._maps = MapInputs(node, node.wiring, world)
         self._views = Views(node)
         self._servers = (
             RegionServer(node, settings, self._views),
-            PathServer(node, node.wiring, world, transforms, settings, self._views),
+            PathServer(node, node.wiring, world, self._transforms, settings, self._views),
         )
 
     def activate(self) -> None:
@@ -113,5 +113,5 @@ class _Parts:
 
     def destroy(self) -> None:
         self.deactivate()
-        for part in (*self._servers, self._maps, self._views):
+        for part in (*self._servers, self._maps, self._views, self._transforms):
             part.destroy()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import array
 import contextlib
+import os
 import shutil
 import signal
 import subprocess
@@ -48,10 +49,27 @@ CONFIGURE, ACTIVATE, DEACTIVATE, CLEANUP, SHUTDOWN = (
 
 
 class Planner:
-    """The installed program in a process of its own."""
+    """The installed program in a process of its own.
 
-    def __init__(self, folder: Path, params_file: Path | None = None, **parameters) -> None:
+    Args:
+        folder: For its log.
+        params_file: Its parameters, if not the defaults.
+        with_tf2: Whether it finds tf2_ros, a stand-in.
+        parameters: Those that count before the file's.
+    """
+
+    def __init__(
+        self,
+        folder: Path,
+        params_file: Path | None = None,
+        *,
+        with_tf2: bool = False,
+        **parameters,
+    ) -> None:
         self._log = folder / "log.txt"
+        path = os.environ["PYTHONPATH"]
+        if with_tf2:
+            path = f"{Path(__file__).with_name('stand_ins')}:{path}"
         arguments = [] if params_file is None else ["--params-file", str(params_file)]
         for name, value in parameters.items():
             arguments += ["-p", f"{name}:={str(value).lower() if value is True else value}"]
@@ -60,6 +78,7 @@ class Planner:
                 [shutil.which("planner"), "--ros-args", *arguments],
                 stdout=log,
                 stderr=subprocess.STDOUT,
+                env={**os.environ, "PYTHONPATH": path},
             )
 
     @property
