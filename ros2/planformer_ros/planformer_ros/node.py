@@ -58,23 +58,20 @@ class PlanformerNode(LifecycleNode):
 
     def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Disconnect and forget the maps."""
-        self._disconnect()
+        if self._parts is not None:
+            self._parts.destroy()
+            self._parts = None
         return super().on_cleanup(state)
 
     def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Disconnect."""
-        self._disconnect()
+        """Give up what is in progress and answer no more."""
+        self.stop()
         return super().on_shutdown(state)
 
     def stop(self) -> None:
         """Give up what is in progress and answer no more."""
         if self._parts is not None:
             self._parts.deactivate()
-
-    def _disconnect(self) -> None:
-        if self._parts is not None:
-            self._parts.destroy()
-            self._parts = None
 
     def _on_parameters(self, changed: list[Parameter[Any]]) -> SetParametersResult:
         """Take new settings as a whole, or leave the old ones and say why."""
@@ -112,6 +109,5 @@ class _Parts:
             server.deactivate()
 
     def destroy(self) -> None:
-        self.deactivate()
         for part in (*self._servers, self._maps, self._views, self._transforms):
             part.destroy()

@@ -68,7 +68,7 @@ class TfTransforms:
         self._listener = tf2_ros.TransformListener(self._buffer, self._node)
         self._executor = SingleThreadedExecutor(context=node.context)
         self._executor.add_node(self._node)
-        self._thread = threading.Thread(target=self._listen, daemon=True)
+        self._thread = threading.Thread(target=self._listen)  # ends with ROS at the latest
         self._thread.start()
 
     def lookup(self, target: str, source: str) -> Frame:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 import pytest
 from geometry_msgs.msg import TransformStamped
 from planformer.maps import Costmap
@@ -40,7 +41,9 @@ def planner(tmp_path):
 
 @pytest.fixture
 def with_map(client, planner):
-    client.publish_costmap(Costmap([[0] * 100] * 100))
+    costs = np.zeros((100, 100), np.uint8)
+    costs[35:45, 35:45] = 254  # a straight path, which nothing improves, would end the search
+    client.publish_costmap(Costmap(costs))
     until(lambda: client.plan(START, GOAL)[0] == SUCCEEDED)
     return client
 

@@ -43,7 +43,7 @@ class Buffer:
 
     set_transform_static = set_transform
 
-    def lookup_transform(self, target, source, when, timeout=Duration()) -> TransformStamped:
+    def lookup_transform(self, target, source, when, timeout: Duration) -> TransformStamped:
         del when  # the latest
         deadline = time.monotonic() + timeout.nanoseconds / 1e9
         while self._root(target)[0] != self._root(source)[0]:
