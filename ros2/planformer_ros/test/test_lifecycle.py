@@ -124,6 +124,8 @@ def test_parameters_change_together_or_not_at_all(client, planner):
         ({"robot": "tank"}, "must be one of point, dubins, reeds_shepp"),
         ({"time_limit": -1.0}, "time_limit"),
         ({"robot_radius": "wide"}, "robot_radius"),
+        ({"map_topic": "no topic"}, "no topic"),
+        ({"costmap_topic": "no//topic"}, "no//topic"),
         ({"guide": "oracle", "autostart": True}, "unknown guide 'oracle'"),
     ],
 )
@@ -131,6 +133,7 @@ def test_a_start_with_bad_parameters_ends_with_a_message(tmp_path, parameters, m
     planner = Planner(tmp_path, **parameters)
     assert planner.process.wait(PATIENCE) == 1, planner.log
     assert message in planner.log
+    assert "Traceback" not in planner.log
 
 
 def test_it_ends_at_once_while_it_plans(client, tmp_path):
