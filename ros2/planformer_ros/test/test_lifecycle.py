@@ -7,6 +7,7 @@ import signal
 import numpy as np
 import pytest
 import yaml
+from lifecycle_msgs.srv import GetState
 from planformer.maps import Costmap
 
 from client import (
@@ -154,13 +155,21 @@ def test_the_examples_work(client, tmp_path, pytestconfig, name):
             until(lambda: client.plan(START, GOAL, planner_id="GridBased")[0] == SUCCEEDED)
 
 
+def test_the_examples_count_in_a_namespace(client, tmp_path, pytestconfig):
+    file = pytestconfig.rootpath / "config" / "planformer.yaml"
+    with Planner(tmp_path, file, namespace="robot1") as planner:
+        until(lambda: client.node.count_services("/robot1/propose_region") == 1)
+        state = client.call(GetState, "/robot1/planformer/get_state", GetState.Request())
+        assert state.current_state.label == "active", planner.log  # by the file's autostart
+
+
 def test_the_example_names_all_parameters(pytestconfig):
     from dataclasses import fields
 
     from planformer_ros.settings import Settings, Wiring
 
     text = (pytestconfig.rootpath / "config" / "planformer.yaml").read_text()
-    given = yaml.safe_load(text)["planformer"]["ros__parameters"]
+    given = yaml.safe_load(text)["/**/planformer"]["ros__parameters"]
     names = {item.name for kind in (Settings, Wiring) for item in fields(kind)}
     assert set(given) <= names
     assert names - set(given) == {"seed", "max_pixels"}  # for few
