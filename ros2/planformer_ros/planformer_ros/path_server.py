@@ -14,9 +14,9 @@ from nav2_msgs.action import ComputePathToPose
 from nav_msgs.msg import Path
 from planformer import CancelToken
 from planformer.errors import PlanformerError
-from rclpy._rclpy_pybind11 import RCLError
 from rclpy.action.server import ActionServer, CancelResponse, GoalResponse, ServerGoalHandle
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
+from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from std_msgs.msg import Header
 
@@ -151,7 +151,7 @@ class PathServer:
         result = self._result(answer)
         try:
             self._end(job, answer, result)
-        except RCLError:
+        except rclpy_implementation.RCLError:
             if self._node.context.ok():
                 raise
             # Interrupted: ROS is gone already, and nobody can be told any more.
