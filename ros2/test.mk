@@ -23,7 +23,11 @@ PACKAGE_READY := $(ROS_VENV)/.stamp-package
 INTERFACES_READY := $(foreach package,$(INTERFACES),$(BUILT)/.stamp-$(notdir $(package)))
 
 .PHONY: test
-test: node plugin
+test: types node plugin
+
+.PHONY: types
+types: $(PACKAGE_READY)
+	$(BIN)/mypy --config-file ros2/planformer_ros/mypy.ini
 
 .PHONY: node
 node: $(PACKAGE_READY) $(INTERFACES_READY)

@@ -3,12 +3,11 @@
 ros2 launch planformer_ros planformer.launch.py params_file:=my.yaml
 """
 
+from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument
 from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
 from launch_ros.actions import LifecycleNode
 from launch_ros.substitutions import FindPackageShare
-
-from launch import LaunchDescription
 
 
 def generate_launch_description():
@@ -34,5 +33,6 @@ def generate_launch_description():
         arguments=["--ros-args", "--log-level", LaunchConfiguration("log_level")],
         output="screen",
         respawn=True,
+        respawn_delay=2.0,
     )
     return LaunchDescription([*arguments, node])

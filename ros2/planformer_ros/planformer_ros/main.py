@@ -6,7 +6,7 @@ import sys
 
 import rclpy
 from planformer.errors import PlanformerError
-from rclpy.exceptions import InvalidParameterException
+from rclpy.exceptions import NameValidationException, ParameterException
 from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
 from rclpy.lifecycle import TransitionCallbackReturn
 
@@ -28,7 +28,7 @@ def main(args: list[str] | None = None) -> int:
     rclpy.init(args=args)
     try:
         node = PlanformerNode()
-    except (PlanformerError, InvalidParameterException) as error:
+    except (PlanformerError, ParameterException, NameValidationException) as error:
         print(f"planformer: {error}", file=sys.stderr)
         rclpy.try_shutdown()
         return 1

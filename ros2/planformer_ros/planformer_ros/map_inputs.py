@@ -10,10 +10,11 @@ from nav_msgs.msg import OccupancyGrid
 from planformer.errors import InvalidMap, PlanformerError
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.node import Node
+from rclpy.qos import QoSProfile
 from std_msgs.msg import Header
 
 from planformer_ros.messages import costmap_of_map, costmap_of_published, patch_of
-from planformer_ros.qos import LATCHED
+from planformer_ros.qos import LATCHED, UPDATES
 from planformer_ros.settings import Wiring
 from planformer_ros.world import World
 
@@ -29,17 +30,18 @@ class MapInputs:
 
     def __init__(self, node: Node, wiring: Wiring, world: World) -> None:
         self._node, self._wiring, self._world = node, wiring, world
-        wanted: list[tuple[type, str, Callable[[Any], None]]] = []
+        self._costmap_time = (0, 0)
+        wanted: list[tuple[type, str, Callable[[Any], None], QoSProfile]] = []
         if wiring.map_topic:
-            wanted.append((OccupancyGrid, wiring.map_topic, self._on_map))
+            wanted.append((OccupancyGrid, wiring.map_topic, self._on_map, LATCHED))
         if wiring.costmap_topic:
             updates = f"{wiring.costmap_topic}_updates"
-            wanted.append((OccupancyGrid, wiring.costmap_topic, self._on_costmap))
-            wanted.append((OccupancyGridUpdate, updates, self._on_update))
+            wanted.append((OccupancyGrid, wiring.costmap_topic, self._on_costmap, LATCHED))
+            wanted.append((OccupancyGridUpdate, updates, self._on_update, UPDATES))
         group = MutuallyExclusiveCallbackGroup()  # no update overtakes another
         self._subscriptions = [
-            node.create_subscription(kind, topic, callback, LATCHED, callback_group=group)
-            for kind, topic, callback in wanted
+            node.create_subscription(kind, topic, callback, qos, callback_group=group)
+            for kind, topic, callback, qos in wanted
         ]
 
     def destroy(self) -> None:
@@ -51,9 +53,15 @@ class MapInputs:
         self._take(message.header, lambda: self._world.set_map(costmap_of_map(message)))
 
     def _on_costmap(self, message: OccupancyGrid) -> None:
-        self._take(message.header, lambda: self._world.set_costmap(costmap_of_published(message)))
+        def take() -> None:
+            self._world.set_costmap(costmap_of_published(message))
+            self._costmap_time = _time_of(message.header)
+
+        self._take(message.header, take)
 
     def _on_update(self, message: OccupancyGridUpdate) -> None:
+        if _time_of(message.header) < self._costmap_time:
+            return  # a latched one of before: the costmap knows better
         self._take(
             message.header,
             lambda: self._world.update_costmap(patch_of(message), message.x, message.y),
@@ -68,3 +76,7 @@ class MapInputs:
             take()
         except PlanformerError as error:
             self._node.get_logger().warning(f"a map is ignored: {error}")
+
+
+def _time_of(header: Header) -> tuple[int, int]:
+    return header.stamp.sec, header.stamp.nanosec

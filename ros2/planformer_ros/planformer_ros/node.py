@@ -6,8 +6,11 @@ from typing import Any
 
 from planformer.errors import PlanformerError
 from rcl_interfaces.msg import SetParametersResult
+from rclpy.expand_topic_name import expand_topic_name
 from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
 from rclpy.parameter import Parameter
+from rclpy.validate_full_topic_name import validate_full_topic_name
+from rclpy.validate_topic_name import validate_topic_name
 
 from planformer_ros import parameters
 from planformer_ros.map_inputs import MapInputs
@@ -23,6 +26,10 @@ class PlanformerNode(LifecycleNode):
     """Answers requests for regions and goals for paths while it is active.
 
     Maps are received from the configuration on, so that it can plan as soon as it is active.
+
+    Raises:
+        InvalidParameter: A parameter is out of range. Also rclpy's ParameterException, and its
+            NameValidationException for a topic that is none.
     """
 
     def __init__(self) -> None:
@@ -31,8 +38,13 @@ class PlanformerNode(LifecycleNode):
         parameters.declare(self, Wiring, read_only=True)
         self.wiring = parameters.read(self, Wiring)
         self.settings = parameters.read(self, Settings)
+        for topic in filter(None, (self.wiring.map_topic, self.wiring.costmap_topic)):
+            validate_topic_name(topic)
+            full_name = expand_topic_name(topic, self.get_name(), self.get_namespace())
+            validate_full_topic_name(full_name)
         self._parts: _Parts | None = None
-        self.add_on_set_parameters_callback(self._on_parameters)
+        self.add_on_set_parameters_callback(self._check_parameters)
+        self.add_post_set_parameters_callback(self._take_parameters)
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Load the weights and connect; fails where there is no such planner or weights."""
@@ -58,12 +70,14 @@ class PlanformerNode(LifecycleNode):
 
     def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Disconnect and forget the maps."""
-        self._disconnect()
+        if self._parts is not None:
+            self._parts.destroy()
+            self._parts = None
         return super().on_cleanup(state)
 
     def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Disconnect."""
-        self._disconnect()
+        """Give up what is in progress and answer no more."""
+        self.stop()
         return super().on_shutdown(state)
 
     def stop(self) -> None:
@@ -71,20 +85,18 @@ class PlanformerNode(LifecycleNode):
         if self._parts is not None:
             self._parts.deactivate()
 
-    def _disconnect(self) -> None:
-        if self._parts is not None:
-            self._parts.destroy()
-            self._parts = None
-
-    def _on_parameters(self, changed: list[Parameter[Any]]) -> SetParametersResult:
-        """Take new settings as a whole, or leave the old ones and say why."""
+    def _check_parameters(self, changed: list[Parameter[Any]]) -> SetParametersResult:
+        """Accept new settings as a whole, or refuse them and say why."""
         try:
-            settings = parameters.read(self, Settings, parameters.changes_of(changed))
-            settings.check_names()
+            parameters.read(self, Settings, parameters.changes_of(changed)).check_names()
         except PlanformerError as error:
             return SetParametersResult(successful=False, reason=str(error))
-        self.settings = settings
         return SetParametersResult(successful=True)
+
+    def _take_parameters(self, changed: list[Parameter[Any]]) -> None:
+        """Use what has been accepted, by other callbacks too."""
+        del changed
+        self.settings = parameters.read(self, Settings)
 
 
 class _Parts:
@@ -95,12 +107,12 @@ class _Parts:
             return node.settings
 
         world = World()
-        transforms = make_transforms(node, node.wiring.transform_timeout)
+        self._transforms = make_transforms(node, node.wiring.transform_timeout)
         self._maps = MapInputs(node, node.wiring, world)
         self._views = Views(node)
         self._servers = (
             RegionServer(node, settings, self._views),
-            PathServer(node, node.wiring, world, transforms, settings, self._views),
+            PathServer(node, node.wiring, world, self._transforms, settings, self._views),
         )
 
     def activate(self) -> None:
@@ -112,6 +124,5 @@ class _Parts:
             server.deactivate()
 
     def destroy(self) -> None:
-        self.deactivate()
-        for part in (*self._servers, self._maps, self._views):
+        for part in (*self._servers, self._maps, self._views, self._transforms):
             part.destroy()

@@ -14,9 +14,9 @@ from nav2_msgs.action import ComputePathToPose
 from nav_msgs.msg import Path
 from planformer import CancelToken
 from planformer.errors import PlanformerError
-from rclpy._rclpy_pybind11 import RCLError
 from rclpy.action.server import ActionServer, CancelResponse, GoalResponse, ServerGoalHandle
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
+from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from std_msgs.msg import Header
 
@@ -34,6 +34,10 @@ Handle = ServerGoalHandle[Any, Any, Any]
 _PERIOD = 0.01
 """Seconds between two looks at what another thread is about to change."""
 
+_PATIENCE = 5.0
+"""Longest wait [s] for goals that are given up. They end within milliseconds, unless a proposal is
+under way on a large map."""
+
 
 @dataclass
 class _Job:
@@ -43,11 +47,13 @@ class _Job:
         handle: The action's handle of it.
         token: Ends its search.
         cancelled_by_client: Whether its client asked for that, and not a newer goal.
+        is_decided: Whether its answer is there, which makes it too late to cancel.
     """
 
     handle: Handle
     token: CancelToken
     cancelled_by_client: bool = False
+    is_decided: bool = False
 
 
 class PathServer:
@@ -76,6 +82,7 @@ class PathServer:
         self._is_active = False
         self._jobs: dict[bytes, _Job] = {}
         self._lock = threading.Lock()
+        self._ended = threading.Condition(self._lock)
         self._planning = threading.Lock()
         self._server = ActionServer(
             node,
@@ -93,14 +100,14 @@ class PathServer:
         self._is_active = True
 
     def deactivate(self) -> None:
-        """Accept no more goals and give up those in progress."""
+        """Accept no more goals, give up those in progress and wait for their end."""
         self._is_active = False
         with self._lock:
             self._cancel_all()
+            self._ended.wait_for(lambda: not self._jobs, _PATIENCE)
 
     def destroy(self) -> None:
         """Take the action away."""
-        self.deactivate()
         self._server.destroy()
 
     def _cancel_all(self) -> None:
@@ -123,7 +130,7 @@ class PathServer:
     def _on_cancel(self, handle: Handle) -> CancelResponse:
         with self._lock:
             job = self._jobs.get(_key(handle))
-            if job is None:
+            if job is None or job.is_decided:
                 return CancelResponse.REJECT
             job.cancelled_by_client = True
             job.token.cancel()
@@ -131,13 +138,20 @@ class PathServer:
 
     def _execute(self, handle: Handle) -> ComputePathToPose.Result:
         job = self._jobs[_key(handle)]
-        answer = self._answer_in_turn(handle.request, job.token)
-        with self._lock:  # from here on it is too late to cancel
-            del self._jobs[_key(handle)]
+        try:
+            return self._finish(job, self._answer_in_turn(handle.request, job.token))
+        finally:
+            with self._lock:
+                del self._jobs[_key(handle)]
+                self._ended.notify_all()
+
+    def _finish(self, job: _Job, answer: PathAnswer) -> ComputePathToPose.Result:
+        with self._lock:
+            job.is_decided = True
         result = self._result(answer)
         try:
             self._end(job, answer, result)
-        except RCLError:
+        except rclpy_implementation.RCLError:
             if self._node.context.ok():
                 raise
             # Interrupted: ROS is gone already, and nobody can be told any more.

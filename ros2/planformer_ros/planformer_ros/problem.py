@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from planformer import Problem
 from planformer.errors import InvalidMap, InvalidProblem
 from planformer.maps import Costmap
-from planformer.maps.costmap import check_goal, inflated, with_unknown_free, with_way_out
+from planformer.maps.costmap import check_goal, with_way_out
 
 from planformer_ros.settings import Settings
 from planformer_ros.world import Snapshot
@@ -42,13 +42,9 @@ def prepare(snapshot: Snapshot, start: Pose, goal: Pose, settings: Settings) -> 
         InvalidProblem: The start or the goal is off the map or in closed space (see its
             subclasses), or its yaw is no number.
     """
-    costmap = snapshot.costmap
-    _check_size(costmap, settings.max_pixels)
-    if settings.allow_unknown:
-        costmap = with_unknown_free(costmap)
+    _check_size(snapshot.costmap, settings.max_pixels)
     radius = settings.costmap_radius if snapshot.is_inflated else settings.robot_radius
-    if radius > 0.0:
-        costmap = inflated(costmap, radius)
+    costmap = snapshot.for_robot(radius, unknown_is_free=settings.allow_unknown)
     costmap = with_way_out(costmap, start, settings.start_reach)
     check_goal(costmap, goal)
     for name, pose in (("start", start), ("goal", goal)):

@@ -10,3 +10,10 @@ LATCHED = QoSProfile(
     reliability=ReliabilityPolicy.RELIABLE,
 )
 """Maps, costmaps, regions and paths: who comes late gets the last one."""
+
+UPDATES = QoSProfile(
+    depth=100,
+    durability=DurabilityPolicy.TRANSIENT_LOCAL,
+    reliability=ReliabilityPolicy.RELIABLE,
+)
+"""Updates of costmaps: each changes other cells, so that none may be dropped for a newer one."""

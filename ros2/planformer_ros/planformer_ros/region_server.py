@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 import traceback
 from collections.abc import Callable
 
@@ -29,6 +30,7 @@ class RegionServer:
     def __init__(self, node: Node, settings: Callable[[], Settings], views: Views) -> None:
         self._node, self._settings, self._views = node, settings, views
         self._is_active = False
+        self._answering = threading.Lock()
         self._service = node.create_service(
             ProposeRegion,
             "propose_region",
@@ -41,8 +43,10 @@ class RegionServer:
         self._is_active = True
 
     def deactivate(self) -> None:
-        """Answer no more."""
+        """Answer no more, and wait for the answer in progress."""
         self._is_active = False
+        with self._answering:
+            pass
 
     def destroy(self) -> None:
         """Take the service away."""
@@ -51,7 +55,8 @@ class RegionServer:
     def _on_request(
         self, request: ProposeRegion.Request, response: ProposeRegion.Response
     ) -> ProposeRegion.Response:
-        answer = self._answer(request)
+        with self._answering:
+            answer = self._answer(request)
         response.error_code = int(answer.code)
         response.error_msg = answer.message
         response.seconds = answer.seconds

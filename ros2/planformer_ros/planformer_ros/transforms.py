@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import contextlib
+import threading
 from typing import Any, Protocol
 
+import rclpy
 from planformer.geometry import Frame
 from rclpy.duration import Duration
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.time import Time
 
@@ -25,6 +29,10 @@ class Transforms(Protocol):
         """
         ...
 
+    def destroy(self) -> None:
+        """Listen no more."""
+        ...
+
 
 class NoTransforms:
     """Knows nothing; ROS without tf2_ros."""
@@ -36,22 +44,32 @@ class NoTransforms:
             "send goals in the frame of the map with use_start and a start"
         )
 
+    def destroy(self) -> None:
+        """Nothing listens."""
+
 
 class TfTransforms:
     """Asks tf2 for the latest transform.
 
+    It listens with a node and a thread of its own: transforms come often, and a wait for one must
+    not keep it from arriving. (tf2's own thread would take the planner's node from its executor.)
+
     Args:
         tf2_ros: The module.
-        node: The node that listens.
+        node: The planner's node.
         timeout: Longest wait in seconds.
     """
 
     def __init__(self, tf2_ros: Any, node: Node, timeout: float) -> None:
         self._error: type[Exception] = tf2_ros.TransformException
         self._timeout = Duration(seconds=timeout)
-        self._buffer = tf2_ros.Buffer(node=node)
-        # In a thread of its own: a wait for a transform must not keep it from arriving.
-        self._listener = tf2_ros.TransformListener(self._buffer, node, spin_thread=True)
+        self._node = _listening_node(node)
+        self._buffer = tf2_ros.Buffer()
+        self._listener = tf2_ros.TransformListener(self._buffer, self._node)
+        self._executor = SingleThreadedExecutor(context=node.context)
+        self._executor.add_node(self._node)
+        self._thread = threading.Thread(target=self._listen)  # ends with ROS at the latest
+        self._thread.start()
 
     def lookup(self, target: str, source: str) -> Frame:
         """The latest pose of the frame `source` in the frame `target`."""
@@ -63,6 +81,29 @@ class TfTransforms:
             ) from error
         move, turn = found.transform.translation, found.transform.rotation
         return Frame(move.x, move.y, yaw_of(turn.x, turn.y, turn.z, turn.w))
+
+    def destroy(self) -> None:
+        """Listen no more."""
+        self._executor.shutdown()
+        self._thread.join()
+        self._node.destroy_node()
+
+    def _listen(self) -> None:
+        with contextlib.suppress(ExternalShutdownException):
+            self._executor.spin()
+
+
+def _listening_node(node: Node) -> Node:
+    """A node beside another one. Its name also counts where a launch file renames the other."""
+    name = f"{node.get_name()}_transforms"
+    return rclpy.create_node(
+        name,
+        context=node.context,
+        cli_args=["--ros-args", "-r", f"__node:={name}"],
+        namespace=node.get_namespace(),
+        enable_rosout=False,
+        start_parameter_services=False,
+    )
 
 
 def make_transforms(node: Node, timeout: float) -> Transforms:

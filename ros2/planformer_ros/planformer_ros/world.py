@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import threading
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 from planformer.errors import InvalidMap
 from planformer.maps import Costmap
-from planformer.maps.costmap import with_patch
+from planformer.maps.costmap import inflated, with_patch, with_unknown_free
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,6 +23,22 @@ class Snapshot:
 
     costmap: Costmap
     is_inflated: bool
+    _prepared: dict[tuple[float, bool], Costmap] = field(default_factory=dict, init=False)
+
+    def for_robot(self, radius: float, *, unknown_is_free: bool) -> Costmap:
+        """The costmap for a robot without extent.
+
+        It is made once: inflating a large map takes longer than planning on it.
+
+        Args:
+            radius: What the costmap's inflation lacks, in metres.
+            unknown_is_free: Whether unknown cells may be driven through.
+        """
+        key = radius, unknown_is_free
+        if key not in self._prepared:
+            costmap = with_unknown_free(self.costmap) if unknown_is_free else self.costmap
+            self._prepared[key] = inflated(costmap, radius) if radius > 0.0 else costmap
+        return self._prepared[key]
 
 
 class World:

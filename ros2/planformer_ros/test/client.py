@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import array
 import contextlib
+import os
 import shutil
 import signal
 import subprocess
@@ -38,21 +39,43 @@ SUCCEEDED, CANCELED, ABORTED = (
     GoalStatus.STATUS_CANCELED,
     GoalStatus.STATUS_ABORTED,
 )
-CONFIGURE, ACTIVATE, DEACTIVATE, CLEANUP, SHUTDOWN = (
+CONFIGURE, ACTIVATE, DEACTIVATE, CLEANUP, SHUTDOWN, ACTIVE_SHUTDOWN = (
     Transition.TRANSITION_CONFIGURE,
     Transition.TRANSITION_ACTIVATE,
     Transition.TRANSITION_DEACTIVATE,
     Transition.TRANSITION_CLEANUP,
     Transition.TRANSITION_INACTIVE_SHUTDOWN,
+    Transition.TRANSITION_ACTIVE_SHUTDOWN,
 )
 
 
 class Planner:
-    """The installed program in a process of its own."""
+    """The installed program in a process of its own.
 
-    def __init__(self, folder: Path, params_file: Path | None = None, **parameters) -> None:
+    Args:
+        folder: For its log.
+        params_file: Its parameters, if not the defaults.
+        namespace: Its namespace.
+        with_tf2: Whether it finds tf2_ros, a stand-in.
+        parameters: Those that count before the file's.
+    """
+
+    def __init__(
+        self,
+        folder: Path,
+        params_file: Path | None = None,
+        *,
+        namespace: str = "",
+        with_tf2: bool = False,
+        **parameters,
+    ) -> None:
         self._log = folder / "log.txt"
-        arguments = [] if params_file is None else ["--params-file", str(params_file)]
+        path = os.environ["PYTHONPATH"]
+        if with_tf2:
+            path = f"{Path(__file__).with_name('stand_ins')}:{path}"
+        arguments = ["-r", f"__ns:=/{namespace}"]
+        if params_file is not None:
+            arguments += ["--params-file", str(params_file)]
         for name, value in parameters.items():
             arguments += ["-p", f"{name}:={str(value).lower() if value is True else value}"]
         with self._log.open("w") as log:
@@ -60,6 +83,7 @@ class Planner:
                 [shutil.which("planner"), "--ros-args", *arguments],
                 stdout=log,
                 stderr=subprocess.STDOUT,
+                env={**os.environ, "PYTHONPATH": path},
             )
 
     @property
@@ -171,21 +195,21 @@ class Client:
         plain = np.select([costmap.costs == 255, costmap.costs >= 253], [-1, 100], 0)
         self._publish("map", costmap, plain if values is None else values, frame)
 
-    def publish_costmap(self, costmap: Costmap, frame: str = "map") -> None:
+    def publish_costmap(self, costmap: Costmap, frame: str = "map", time: int = 0) -> None:
         """Publish a costmap, once the planner listens."""
-        self._publish("costmap", costmap, costmap.to_published(), frame)
+        self._publish("costmap", costmap, costmap.to_published(), frame, time)
 
-    def publish_update(self, costmap: Costmap, column: int, row: int, frame: str = "map") -> None:
+    def publish_update(self, costmap: Costmap, column: int, row: int, time: int = 0) -> None:
         """Publish an update of the costmap: the costs of a smaller one."""
         height, width = costmap.costs.shape
         message = OccupancyGridUpdate(x=column, y=row, width=width, height=height)
-        message.header.frame_id = frame
+        message.header.frame_id, message.header.stamp.sec = "map", time
         message.data = array.array("b", costmap.to_published().tobytes())
         self._send("update", message)
 
-    def _publish(self, kind: str, costmap: Costmap, values, frame: str) -> None:
+    def _publish(self, kind: str, costmap: Costmap, values, frame: str, time: int = 0) -> None:
         message = OccupancyGrid(info=metadata_of(costmap))
-        message.header.frame_id = frame
+        message.header.frame_id, message.header.stamp.sec = frame, time
         message.data = array.array("b", np.asarray(values, np.int8).tobytes())
         self._send(kind, message)
 

@@ -13,7 +13,7 @@ import pytest
 from planformer import CancelToken
 from planformer.errors import InvalidMap
 from planformer.maps import Costmap
-from planformer.maps.costmap import inflated, with_patch
+from planformer.maps.costmap import inflated, with_patch, with_unknown_free
 
 from planformer_ros.error_codes import ErrorCode
 from planformer_ros.path import answer_path
@@ -136,10 +136,12 @@ class TestPaths:
         assert plan(forest, replace(settings, fallback=False)).code is ErrorCode.NO_VALID_PATH
 
     def test_a_search_in_the_region_that_fails_falls_back(self, forest):
-        settings = replace(SETTINGS, planner="RRTstar", time_limit=2.0, guided_share=0.05)
-        hopeless = replace(settings, max_vertices=1)
-        answer = plan(forest, hopeless)
-        assert answer.code in (ErrorCode.NO_VALID_PATH, ErrorCode.TIMEOUT)
+        # So few samples suffice on the whole map, but not in the region: close ones do not connect.
+        settings = replace(SETTINGS, planner="BFMT", max_vertices=20)
+        answer = plan(forest, settings)
+        assert (answer.code, answer.region) == (ErrorCode.NONE, None)
+        assert "found no path" in answer.fallback
+        assert plan(forest, replace(settings, fallback=False)).code is ErrorCode.NO_VALID_PATH
 
     def test_a_learned_planner_takes_no_region(self, forest):
         answer = plan(forest, planner_id="MPNet", goal=(3.0, 3.0, 0.0))
@@ -236,3 +238,14 @@ class TestWorld:
         plain = prepare(Snapshot(Costmap(costs), is_inflated=False), *ends, settings)
         costmap = prepare(Snapshot(Costmap(costs), is_inflated=True), *ends, settings)
         assert plain.problem.blocked.sum() > costmap.problem.blocked.sum() == 40
+
+    def test_a_map_is_inflated_once_for_each_robot(self):
+        costs = np.zeros((40, 40), np.uint8)
+        costs[:, 20], costs[0, 0] = 254, 255
+        snapshot = Snapshot(Costmap(costs), is_inflated=False)
+        first = snapshot.for_robot(0.1, unknown_is_free=False)
+        assert snapshot.for_robot(0.1, unknown_is_free=False) is first
+        assert first == inflated(Costmap(costs), 0.1)
+        assert snapshot.for_robot(0.2, unknown_is_free=False) == inflated(Costmap(costs), 0.2)
+        opened = snapshot.for_robot(0.0, unknown_is_free=True)
+        assert opened == with_unknown_free(Costmap(costs))

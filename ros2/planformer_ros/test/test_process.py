@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import time
 
 import numpy as np
 import planformer as pf
@@ -170,23 +171,38 @@ class TestMapsThatChange:
 
     @pytest.mark.parametrize("as_update", [True, False])
     def test_a_door_that_closes_while_it_plans(self, client, as_update):
-        start, goal = (1.0, 5.0, 0.0), (9.0, 5.0, 0.0)
+        # Not straight through the door: such a path, which nothing improves, ends the search.
+        start, goal = (1.0, 3.0, 0.0), (9.0, 3.0, 0.0)
         world = self.world()
-        client.publish_costmap(world)
-        client.set_parameter("time_limit", 2.0)
-        until(lambda: ends_in(client, start, goal, world))
-        handle = client.send(make_goal(start, goal))
         later = with_patch(world, self.closed().costs, 98, 95)
-        if as_update:
-            client.publish_update(self.closed(), 98, 95)
-        else:
-            client.publish_costmap(later)
-        status, result = client.result(handle)
-        client.set_parameter("time_limit", 60.0)
-        if status == SUCCEEDED:
-            check_path(result.path, later, 0.0, start, goal)
-        else:  # on a busy machine the rest of the time is too short
-            assert result.error_code == ErrorCode.TIMEOUT
+        client.set_parameter("time_limit", 3.0)
+
+        def goes_through_the_far_door() -> bool:
+            client.publish_costmap(world)
+            until(lambda: ends_in(client, start, goal, world))
+            handle = client.send(make_goal(start, goal))
+            time.sleep(0.2)  # it plans on the first map by now
+            if as_update:
+                client.publish_update(self.closed(), 98, 95)
+            else:
+                client.publish_costmap(later)
+            poses = poses_of(client.result(handle)[1].path)[:, :2]
+            return len(poses) > 0 and pf.path_is_valid(later.grid, pf.PointRobot(0.0), poses)
+
+        # On a busy machine the map may come too late, or the rest of the time be too short.
+        assert any(goes_through_the_far_door() for _ in range(5))
+
+    def test_a_costmap_knows_better_than_an_update_of_before(self, quick, planner):
+        start, goal = (1.0, 5.0, 0.0), (9.0, 5.0, 0.0)
+        one_door = with_patch(self.world(), np.full((10, 4), 254, np.uint8), 98, 180)
+        quick.publish_costmap(one_door, time=10)
+        until(lambda: ends_in(quick, start, goal, one_door))
+        quick.publish_update(self.closed(), 98, 95, time=9)
+        quick.publish_update(self.closed(), 199, 199, time=11)  # comes next and is reported
+        until(lambda: "a map is ignored" in planner.log)
+        assert quick.plan(start, goal)[0] == SUCCEEDED
+        quick.publish_update(self.closed(), 98, 95, time=11)
+        until(lambda: quick.plan(start, goal)[1].error_code == ErrorCode.NO_VALID_PATH)
 
     def test_a_damaged_map_leaves_the_last_one(self, quick, planner):
         world = self.world()
