@@ -3,13 +3,14 @@
 From the repository's root, after `make test-ros`:
 
 ros2/tools/in_ros.sh .venv-ros build/ros/install \
-    python ros2/planformer_ros/test/soak.py --output benchmarks/results/ros2_soak.json
+    python ros2/planformer_ros/test/soak.py --output benchmarks/results/ros2/soak.json
 """
 
 from __future__ import annotations
 
 import argparse
 import json
+import os
 import tempfile
 import threading
 import time
@@ -68,12 +69,14 @@ class Report:
         period: Time from a goal to the next in seconds, which is the deadline too.
         memory_before: Resident memory of the planner in MB after the warm-up.
         memory_after: The same at the end.
+        settings: Those of the planner that are not its defaults.
     """
 
     goals: list[Goal]
     period: float
     memory_before: float
     memory_after: float
+    settings: dict[str, object]
 
     @property
     def in_time(self) -> list[Goal]:
@@ -102,6 +105,7 @@ class Report:
             "goals": len(self.goals),
             "rate_hz": 1.0 / self.period,
             "deadline_ms": 1e3 * self.period,
+            "settings": self.settings,
             "deadlines_kept": len(self.in_time) / len(self.goals),
             "answer_ms": {
                 f"p{share}": round(float(np.percentile(delays, share)), 1)
@@ -211,7 +215,8 @@ def soak(folder: Path, *, goals: int, rate: float, time_limit: float, seed: int 
         run.run(WARM_UP, 1.0 / rate)
         before = memory_mb(planner.process.pid)
         answered = run.run(goals, 1.0 / rate)
-        return Report(answered, 1.0 / rate, before, memory_mb(planner.process.pid))
+        after = memory_mb(planner.process.pid)
+    return Report(answered, 1.0 / rate, before, after, settings)
 
 
 def memory_mb(pid: int) -> float:
@@ -228,13 +233,16 @@ def main() -> None:
     parser.add_argument("--time-limit", type=float, default=0.06, help="of the planner [s]")
     parser.add_argument("--output", type=Path, help="JSON file")
     options = parser.parse_args()
+    busy = {"load_before": os.getloadavg()[0], "nice": os.nice(0)}
     rclpy.init()
     with tempfile.TemporaryDirectory() as folder:
         report = soak(
             Path(folder), goals=options.goals, rate=options.rate, time_limit=options.time_limit
         )
     rclpy.try_shutdown()
-    text = json.dumps({"environment": environment(), **report.summary()}, indent=2) + "\n"
+    busy["load_after"] = os.getloadavg()[0]
+    result = {"environment": environment(), "machine_busy": busy, **report.summary()}
+    text = json.dumps(result, indent=2) + "\n"
     print(text, end="")
     if options.output is not None:
         write_files({options.output: text.encode()})

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import array
 import math
 import time
 
@@ -11,9 +12,11 @@ import pytest
 from nav_msgs.msg import OccupancyGrid, Path
 from planformer.maps import Costmap
 from planformer.maps.costmap import inflated, with_patch
+from planformer_msgs.srv import ProposeRegion
 
-from client import ABORTED, CANCELED, PATIENCE, SUCCEEDED, make_goal, poses_of, until
+from client import ABORTED, CANCELED, PATIENCE, SUCCEEDED, make_goal, poses_of, set_pose, until
 from planformer_ros.error_codes import ErrorCode
+from planformer_ros.messages import metadata_of
 
 pytestmark = pytest.mark.usefixtures("planner")
 
@@ -222,6 +225,41 @@ def ends_in(client, start, goal, costmap: Costmap) -> bool:
     _, result = client.plan(start, goal, planner_id="RRTConnect")
     poses = poses_of(result.path)[:, :2]
     return len(poses) > 0 and pf.path_is_valid(costmap.grid, pf.PointRobot(0.0), poses)
+
+
+class TestBadRequests:
+    """Each has Nav2's code and no mask, and the planner goes on."""
+
+    def good(self) -> ProposeRegion.Request:
+        request = ProposeRegion.Request(info=metadata_of(Costmap([[0] * 100] * 100)))
+        request.costs = array.array("B", bytes(100 * 100))
+        set_pose(request.start, (1.0, 1.0))
+        set_pose(request.goal, (3.0, 3.0))
+        return request
+
+    def test_requests(self, client):
+        def damaged(change) -> ProposeRegion.Request:
+            request = self.good()
+            change(request)
+            return request
+
+        unknown, no_planner = ErrorCode.UNKNOWN, ErrorCode.INVALID_PLANNER
+        for request, code in (
+            (ProposeRegion.Request(), unknown),
+            (damaged(lambda bad: setattr(bad.info, "height", 99)), unknown),
+            (damaged(lambda bad: setattr(bad.info, "width", 2**32 - 1)), unknown),
+            (damaged(lambda bad: setattr(bad.info, "resolution", 1e6)), unknown),
+            (damaged(lambda bad: setattr(bad.info, "resolution", math.nan)), unknown),
+            (damaged(lambda bad: setattr(bad.info.origin.position, "x", math.inf)), unknown),
+            (damaged(lambda bad: setattr(bad.goal.orientation, "w", math.nan)), unknown),
+            (damaged(lambda bad: setattr(bad, "guide", "oracle")), no_planner),
+            (damaged(lambda bad: setattr(bad, "guide", "/absent.onnx")), no_planner),
+        ):
+            answer = client.ask(request)
+            assert (answer.error_code, len(answer.mask)) == (code, 0), request.info
+            assert answer.error_msg
+        answer = client.ask(self.good())
+        assert (answer.error_code, len(answer.mask)) == (0, 100 * 100)
 
 
 class TestBadGoals:
