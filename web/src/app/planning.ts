@@ -12,7 +12,7 @@ export interface Job {
 }
 
 /** Seconds that all runs together may search while one drags. */
-const LIVE_SECONDS = 0.03;
+const LIVE_SECONDS = 0.025;
 /** Milliseconds until a busy server is asked again, and how often. */
 const RETRY_AFTER = 300;
 const TRIES = 10;
@@ -78,7 +78,7 @@ export class Planning {
       if (signal.aborted) return;
       if (first) trace.clear(); // not earlier: what was there stays until there is something new
       first = false;
-      await trace.take(event);
+      trace.take(event);
       this.took(job, trace);
     }
   }
@@ -88,7 +88,7 @@ export class Planning {
     for (const [index, run] of job.runs.entries()) {
       const response = await this.client.plan(planRequest(job.problem, run, limits), signal);
       const trace = this.traces[index]!;
-      await trace.replace(response);
+      trace.replace(response);
       this.took(job, trace);
     }
   }

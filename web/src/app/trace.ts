@@ -1,7 +1,6 @@
 /** What is known of one run so far: its region, tree, path and progress. */
 
 import type { PlanEvent, PlanResponse, Progress, RegionResponse } from "../api/types";
-import { decodeMask, type RegionMask } from "../draw/rasters";
 import { TreeLayer } from "../draw/treeLayer";
 
 export type Phase = "waiting" | "planning" | "done" | "failed";
@@ -16,7 +15,6 @@ export class Trace {
   phase: Phase = "waiting";
   readonly tree = new TreeLayer();
   region: RegionResponse | null = null;
-  mask: RegionMask | null = null;
   path: number[][] = [];
   length: number | null = null;
   vertices = 0;
@@ -28,7 +26,6 @@ export class Trace {
   clear(): void {
     this.tree.clear();
     this.region = null;
-    this.mask = null;
     this.path = [];
     this.length = null;
     this.vertices = 0;
@@ -37,24 +34,16 @@ export class Trace {
     this.response = null;
   }
 
-  async take({ event, data }: PlanEvent): Promise<void> {
-    if (event === "region") await this.takeRegion(data);
+  take({ event, data }: PlanEvent): void {
+    if (event === "region") this.region = data;
     else if (event === "progress") this.takeProgress(data);
-    else await this.takeResult(data);
+    else this.takeResult(data);
   }
 
   /** The result of a plan that was not streamed. */
-  async replace(response: PlanResponse): Promise<void> {
-    const mask = response.region && (await decodeMask(response.region.mask));
+  replace(response: PlanResponse): void {
     this.clear();
-    this.region = response.region;
-    this.mask = mask;
-    await this.takeResult({ ...response, region: null });
-  }
-
-  private async takeRegion(region: RegionResponse): Promise<void> {
-    this.mask = await decodeMask(region.mask);
-    this.region = region;
+    this.takeResult(response);
   }
 
   private takeProgress({ seconds, length, vertices, path, tree }: Progress): void {
@@ -63,8 +52,8 @@ export class Trace {
     this.measure(seconds, length, vertices);
   }
 
-  private async takeResult(response: PlanResponse): Promise<void> {
-    if (response.region) await this.takeRegion(response.region);
+  private takeResult(response: PlanResponse): void {
+    if (response.region) this.region = response.region;
     if (response.tree) this.tree.add(response.tree);
     this.path = response.path;
     this.measure(response.planning_seconds, response.length, response.vertices);

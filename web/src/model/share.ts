@@ -33,7 +33,10 @@ export function encode({ source, id, robot, start, goal, runs, limits }: Shared)
   fields.push(["robot", `${robot.kind},${robot.radius},${robot.turningRadius}`]);
   fields.push(["start", poseText(start)], ["goal", poseText(goal)]);
   for (const { planner, guide, exploration } of runs) {
-    fields.push(["run", `${name(planner)},${name(guide ?? UNGUIDED)},${exploration}`]);
+    fields.push([
+      "run",
+      `${encodeURIComponent(planner)},${encodeURIComponent(guide ?? UNGUIDED)},${exploration}`,
+    ]);
   }
   fields.push(["time", String(limits.time)]);
   if (limits.seed !== null) fields.push(["seed", String(limits.seed)]);
@@ -75,10 +78,6 @@ class Damaged extends Error {}
 
 function fail(field: string): never {
   throw new Damaged(field);
-}
-
-function name(text: string): string {
-  return encodeURIComponent(text).replaceAll(",", "%2C");
 }
 
 function number(text: string): number {

@@ -1,9 +1,10 @@
 /** One run: the choice of its planner, its picture and its figures. */
 
+import type { RegionResponse } from "../api/types";
 import type { App } from "../app/app";
 import type { Trace } from "../app/trace";
 import type { Palette } from "../draw/palette";
-import { heatMap, type Placed, regionImage } from "../draw/rasters";
+import { decodeMask, heatMap, type Placed, type RegionMask, regionImage } from "../draw/rasters";
 import { drawScene, type Scene } from "../draw/scene";
 import type { Run } from "../model/problem";
 import { make, setChoices, setText } from "./dom";
@@ -45,10 +46,14 @@ export class Panel {
   private readonly heat = memo(heatMap);
   private readonly region = memo(regionImage);
 
+  private decoding: RegionResponse | null = null;
+  private decoded: RegionMask | null = null;
+
   constructor(
     private readonly app: App,
     private readonly index: number,
     lens: () => Lens,
+    private readonly changed: () => void,
   ) {
     const figure = (name: string) => make("dd", { "data-figure": name });
     this.figures = {
@@ -102,7 +107,8 @@ export class Panel {
   }
 
   draw(shared: SharedScene, trace: Trace, driver: Scene["driver"]): void {
-    const { size, ratio, map, colours } = shared;
+    const { size, ratio, map, colours, layers } = shared;
+    const mask = layers.region && trace.region ? this.mask(trace.region) : null;
     const [width, height] = [Math.round(size.width * ratio), Math.round(size.height * ratio)];
     if (this.canvas.width !== width || this.canvas.height !== height) {
       this.canvas.width = width;
@@ -111,13 +117,25 @@ export class Panel {
     drawScene(this.context, {
       ...shared,
       heat: trace.region && this.heat(map, trace.region, colours),
-      region: trace.mask && this.region(map, trace.mask, colours),
+      region: mask && this.region(map, mask, colours),
       tree: trace.tree,
       path: trace.path,
       pathColour: colours.runs[this.index]!,
       driver,
     });
     this.handles.place();
+  }
+
+  /** The region's mask; the last one until that of a new region is decoded. */
+  private mask(region: RegionResponse): RegionMask | null {
+    if (region !== this.decoding) {
+      this.decoding = region;
+      void decodeMask(region.mask).then((mask) => {
+        this.decoded = mask;
+        this.changed();
+      });
+    }
+    return this.decoded;
   }
 
   private stats(): HTMLElement {

@@ -146,7 +146,12 @@ export class Stage {
   }
 
   private newPanel(index: number): Panel {
-    const panel = new Panel(this.app, index, () => this.lens);
+    const panel = new Panel(
+      this.app,
+      index,
+      () => this.lens,
+      () => this.invalidate(),
+    );
     listenToGestures(panel.canvas, {
       dragStart: (at) => this.beginStroke(at),
       dragMove: (at, from) => this.dragTo(at, from),
@@ -215,7 +220,7 @@ export class Stage {
     if (!first) return;
     const { problem } = this.app.store.current;
     const width = first.view.clientWidth;
-    const most = Math.max(260, window.innerHeight - 230) / (this.panels.length > 2 ? 1.35 : 1);
+    const most = Math.max(260, window.innerHeight - 290) / (this.panels.length > 2 ? 1.35 : 1);
     const bounds = problem && mapBounds(problem.map);
     const aspect = bounds ? (bounds.top - bounds.bottom) / (bounds.right - bounds.left) : 1;
     const height = Math.round(Math.min(width * Math.min(Math.max(aspect, 0.4), 1.4), most));
