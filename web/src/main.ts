@@ -60,8 +60,9 @@ function showFacts(app: App): void {
 function showChart(app: App, stage: Stage): void {
   const { runs, live } = app.store.current;
   if (live) return;
-  const drawing = chart(runs, app.planning.traces.slice(0, runs.length), stage.colours);
-  byId("chart").hidden = drawing === null;
+  const traces = app.planning.traces.slice(0, runs.length);
+  byId("chart").hidden = traces.every(({ history }) => history.length === 0);
+  const drawing = chart(runs, traces, stage.colours, byId("chart-body").clientWidth);
   byId("chart-body").replaceChildren(...(drawing ? [drawing] : []));
 }
 

@@ -87,7 +87,7 @@ export class App {
       const loaded = await this.attempt(() => this.maps.shared(shared));
       if (loaded) {
         const { robot, limits } = shared;
-        const runs = this.allowedRuns(robot.kind, shared.runs.slice(0, this.mostRuns));
+        const runs = this.runsFor(robot.kind, shared.runs.slice(0, this.mostRuns));
         this.former = [];
         this.show(loaded, shared, { limits, runs });
         return;
@@ -159,7 +159,10 @@ export class App {
     const { problem, runs } = this.store.current;
     if (!problem || problem.robot.kind === kind) return;
     const robot = { kind, ...DEFAULT_SIZES[kind] };
-    this.store.update({ problem: { ...problem, robot }, runs: this.allowedRuns(kind, runs) });
+    this.store.update({
+      problem: { ...problem, robot },
+      runs: this.runsFor(kind, runs, problem.robot.kind),
+    });
   }
 
   setRobotSize(size: Partial<Pick<RobotModel, "radius" | "turningRadius">>, live: boolean): void {
@@ -227,14 +230,18 @@ export class App {
     return { planner: default_planner, guide: default_guide, exploration: 0 };
   }
 
-  /** The runs with what this robot does not have replaced; at least one. */
-  private allowedRuns(kind: RobotKind, runs: readonly Run[]): Run[] {
+  /** The runs for a robot: what it does not have, and another robot's default, replaced. */
+  private runsFor(kind: RobotKind, runs: readonly Run[], former: RobotKind = kind): Run[] {
     const { planners, guides } = this.options.robots[kind];
     const standard = this.defaultRun(kind);
+    const usual = this.defaultRun(former);
     if (runs.length === 0) return [standard];
     return runs.map(({ planner, guide, exploration }) => ({
       planner: planners.includes(planner) ? planner : standard.planner,
-      guide: guide === null || guides.includes(guide) ? guide : standard.guide,
+      guide:
+        guide === null || (guides.includes(guide) && guide !== usual.guide)
+          ? guide
+          : standard.guide,
       exploration,
     }));
   }

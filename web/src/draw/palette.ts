@@ -6,6 +6,8 @@ export interface Palette {
   unknown: string;
   tree: string;
   halo: string;
+  /** Of the cars along a path. */
+  body: string;
   region: string;
   start: string;
   goal: string;
@@ -13,8 +15,8 @@ export interface Palette {
   best: string;
   /** One a run: told apart by colour-blind people too, and repeated in the chart by dashes. */
   runs: readonly string[];
-  /** Heat at probability 0 and 1: the ends of HEAT, walked forwards or backwards. */
-  heatReversed: boolean;
+  /** The probable is darker than the floor in the light, and brighter in the dark. */
+  heat: { reversed: boolean; opacity: number };
 }
 
 const LIGHT: Palette = {
@@ -23,13 +25,14 @@ const LIGHT: Palette = {
   unknown: "#bdc1c5",
   tree: "#3f6b8f",
   halo: "#ffffff",
+  body: "#ffffff",
   region: "#a3357a",
   start: "#00a67d",
   goal: "#d81e4a",
   alarm: "#c22f3d",
   best: "#20262e",
   runs: ["#1257d6", "#b85c00", "#8a2be2", "#00745a"],
-  heatReversed: false,
+  heat: { reversed: false, opacity: 0.88 },
 };
 
 const DARK: Palette = {
@@ -38,13 +41,14 @@ const DARK: Palette = {
   unknown: "#3a424d",
   tree: "#86b4dc",
   halo: "#0c1015",
+  body: "#f2f4f7",
   region: "#f08cc4",
   start: "#1fd1a1",
   goal: "#ff5d80",
   alarm: "#ff7a86",
   best: "#f2f4f7",
   runs: ["#6ea6ff", "#ffa94d", "#c89bff", "#3fd6a8"],
-  heatReversed: true,
+  heat: { reversed: true, opacity: 0.7 },
 };
 
 export type Theme = "light" | "dark";
@@ -65,19 +69,21 @@ const HEAT = [
   [200, 67, 123],
   [182, 48, 139],
 ] as const;
-const OPACITY = 0.88;
 /** Probability from which the heat is as opaque as it gets. */
 const FULL_FROM = 0.55;
 
 /** Red, green, blue and opacity, 0 to 255, of a probability. */
-export function heat(probability: number, reversed: boolean): [number, number, number, number] {
+export function heat(
+  probability: number,
+  { reversed, opacity }: Palette["heat"],
+): [number, number, number, number] {
   const position = (reversed ? 1 - probability : probability) * (HEAT.length - 1);
   const index = Math.min(Math.floor(position), HEAT.length - 2);
   const share = position - index;
   const [low, high] = [HEAT[index]!, HEAT[index + 1]!];
   const ramp = Math.min(probability / FULL_FROM, 1);
   const mix = (channel: 0 | 1 | 2) => low[channel] + share * (high[channel] - low[channel]);
-  return [mix(0), mix(1), mix(2), 255 * OPACITY * ramp * ramp * (3 - 2 * ramp)];
+  return [mix(0), mix(1), mix(2), 255 * opacity * ramp * ramp * (3 - 2 * ramp)];
 }
 
 /** Red, green and blue, 0 to 255, of a colour like "#fbf8f1". */

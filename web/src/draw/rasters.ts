@@ -76,7 +76,7 @@ export function heatMap(map: MapInfo, region: RegionResponse, colours: Palette):
   const { rows, columns, probability, anchors, anchor_size } = region;
   const image = painted(columns, rows, (index) => {
     const row = rows - 1 - Math.floor(index / columns);
-    return packed(heat(probability[row * columns + (index % columns)]!, colours.heatReversed));
+    return packed(heat(probability[row * columns + (index % columns)]!, colours.heat));
   });
   const at = (index: number) => {
     const [x, y] = anchors[index]!;

@@ -129,7 +129,7 @@ function carSize({ robot, view }: Scene): number {
 function drawCars(context: CanvasRenderingContext2D, scene: Scene): void {
   const size = carSize(scene);
   for (const pose of along(scene.path, 4 * size, MOST_CARS)) {
-    drawCar(context, pose, size, scene.colours.halo, scene.pathColour, 1.2 / scene.view.scale);
+    drawCar(context, pose, size, scene.colours.body, scene.pathColour, 1.2 / scene.view.scale);
   }
 }
 

@@ -31,6 +31,10 @@ export interface Run {
   exploration: number;
 }
 
+export function runName({ planner, guide }: Run): string {
+  return guide === null ? planner : `${planner} · ${guide}`;
+}
+
 export interface Limits {
   /** Seconds. */
   time: number;

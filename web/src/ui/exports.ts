@@ -3,7 +3,7 @@
 import type { App } from "../app/app";
 import type { Trace } from "../app/trace";
 import { pathCsv, pathJson } from "../model/files";
-import type { Run } from "../model/problem";
+import { type Run, runName } from "../model/problem";
 import { snippet } from "../model/snippet";
 import { byId, copy, save, toast } from "./dom";
 import type { Stage } from "./stage";
@@ -118,7 +118,6 @@ export class Exports {
 }
 
 function headline(run: Run, trace: Trace | undefined): string {
-  const guide = run.guide === null ? "unguided" : `guided by ${run.guide}`;
   const length = trace?.length == null ? "no path" : metres(trace.length);
-  return `${run.planner}, ${guide}: ${length}, ${count(trace?.vertices ?? 0)} vertices`;
+  return `${runName(run)}: ${length}, ${count(trace?.vertices ?? 0)} vertices`;
 }

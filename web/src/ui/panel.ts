@@ -6,7 +6,7 @@ import type { Trace } from "../app/trace";
 import type { Palette } from "../draw/palette";
 import { decodeMask, heatMap, type Placed, type RegionMask, regionImage } from "../draw/rasters";
 import { drawScene, type Scene } from "../draw/scene";
-import type { Run } from "../model/problem";
+import { type Run, runName } from "../model/problem";
 import { make, setChoices, setText } from "./dom";
 import { Handles, type Lens } from "./handles";
 import { count, metres, seconds } from "./words";
@@ -42,7 +42,10 @@ export class Panel {
     },
     "×",
   );
-  private readonly figures: Record<"length" | "vertices" | "time" | "status", HTMLElement>;
+  private readonly figures: Record<
+    "length" | "vertices" | "time" | "proposal" | "status",
+    HTMLElement
+  >;
   private readonly heat = memo(heatMap);
   private readonly region = memo(regionImage);
 
@@ -60,6 +63,7 @@ export class Panel {
       length: figure("length"),
       vertices: figure("vertices"),
       time: figure("time"),
+      proposal: figure("proposal"),
       status: figure("status"),
     };
     this.view.append(this.canvas);
@@ -86,7 +90,7 @@ export class Panel {
     const robot = this.app.options.robots[problem?.robot.kind ?? "point"];
     const guided = !robot.unguided_planners.includes(run.planner);
     this.element.style.setProperty("--run", colours.runs[this.index]!);
-    this.element.setAttribute("aria-label", `${run.planner}, guide ${run.guide ?? UNGUIDED}`);
+    this.element.setAttribute("aria-label", runName(run));
     setChoices(
       this.planner,
       robot.planners.map((name) => [name, name]),
@@ -139,14 +143,19 @@ export class Panel {
   }
 
   private stats(): HTMLElement {
-    const { length, vertices, time, status } = this.figures;
+    const { length, vertices, time, proposal, status } = this.figures;
+    const figure = (name: string, value: HTMLElement) =>
+      make("div", {}, make("dt", {}, name), value);
+    const outcome = figure("Outcome", status);
+    outcome.className = "status";
     return make(
       "dl",
       { class: "stats" },
-      make("div", {}, make("dt", {}, "Length"), length),
-      make("div", {}, make("dt", {}, "Vertices"), vertices),
-      make("div", {}, make("dt", {}, "Time"), time),
-      make("div", { class: "status" }, make("dt", { class: "hidden" }, "Status"), status),
+      figure("Length", length),
+      figure("Vertices", vertices),
+      figure("Search", time),
+      figure("Proposal", proposal),
+      outcome,
     );
   }
 
@@ -166,31 +175,31 @@ export class Panel {
 
   private showFigures(trace: Trace | undefined): void {
     const known = trace && trace.vertices > 0;
-    const { length, vertices, time, status } = this.figures;
+    const { length, vertices, time, proposal, status } = this.figures;
     setText(length, known && trace.length !== null ? metres(trace.length) : "–");
     setText(vertices, known ? count(trace.vertices) : "–");
-    setText(time, known ? times(trace) : "–");
+    setText(time, known ? seconds(trace.seconds) : "–");
+    setText(proposal, known ? proposalTime(trace) : "–");
     setText(status, trace ? statusText(trace) : "");
     status.parentElement!.classList.toggle("failed", trace?.response?.solved === false);
   }
 }
 
-/** Planning time, and what the proposal took before it. */
-function times({ seconds: planning, region, response }: Trace): string {
-  const proposal = response?.proposal_seconds ?? region?.proposal_seconds ?? 0;
-  return proposal > 0 ? `${seconds(planning)} + ${seconds(proposal)} proposal` : seconds(planning);
+function proposalTime({ region, response }: Trace): string {
+  const taken = response?.proposal_seconds ?? region?.proposal_seconds ?? 0;
+  return taken > 0 ? seconds(taken) : "none";
 }
 
 function statusText({ phase, response }: Trace): string {
   if (phase === "planning") return "searching…";
   if (phase === "waiting") return "waiting";
   if (!response) return "";
-  return response.solved ? response.status : `no path: ${response.status}`;
+  return response.solved ? `path found (${response.status})` : `no path (${response.status})`;
 }
 
 function describe(run: Run, trace: Trace | undefined): string {
   const found = trace?.length == null ? "no path yet" : `a path of ${metres(trace.length)}`;
-  return `Map with ${found} by ${run.planner}`;
+  return `Map with ${found} by ${runName(run)}`;
 }
 
 /** The usual shares, and that of a link if it is another. */
