@@ -3,7 +3,7 @@
 import { ApiError, Client } from "./api/client";
 import { App } from "./app/app";
 import { Alert } from "./ui/alert";
-import { chart } from "./ui/chart";
+import { chart, legend } from "./ui/chart";
 import { Controls } from "./ui/controls";
 import { byId, setText } from "./ui/dom";
 import { listenToDrops } from "./ui/drop";
@@ -63,6 +63,7 @@ function showChart(app: App, stage: Stage): void {
   const traces = app.planning.traces.slice(0, runs.length);
   byId("chart").hidden = traces.every(({ history }) => history.length === 0);
   const drawing = chart(runs, traces, stage.colours, byId("chart-body").clientWidth);
+  byId("chart-legend").replaceChildren(...legend(runs, stage.colours));
   byId("chart-body").replaceChildren(...(drawing ? [drawing] : []));
 }
 

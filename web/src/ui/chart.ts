@@ -3,12 +3,11 @@
 import type { Trace } from "../app/trace";
 import type { Palette } from "../draw/palette";
 import { type Run, runName } from "../model/problem";
+import { make } from "./dom";
 
-const HEIGHT = 216;
+const HEIGHT = 200;
 const [TOP, BOTTOM] = [12, 176];
-const LEFT = 52;
-/** Room for the names beside the lines. */
-const NAMES = 172;
+const [LEFT, RIGHT] = [64, 20];
 /** Told apart without colours, too. */
 const DASHES = ["", "7 4", "2 3", "10 3 2 3"];
 const SVG = "http://www.w3.org/2000/svg";
@@ -34,7 +33,7 @@ export function ticks(low: number, high: number, wanted: number): number[] {
   return Array.from({ length: last - first + 1 }, (_, index) => (first + index) * step);
 }
 
-/** Null where no run has found a path; `width` in pixels. */
+/** The lines, for a chart so many pixels wide; null where no run has found a path. */
 export function chart(
   runs: readonly Run[],
   traces: readonly Trace[],
@@ -44,27 +43,35 @@ export function chart(
   const lengths = traces.flatMap((trace) => trace.history.map(({ length }) => length));
   if (lengths.length === 0) return null;
   const margin = Math.max(0.06 * (Math.max(...lengths) - Math.min(...lengths)), 0.02);
-  const right = width - NAMES;
   const longest = Math.max(0.01, ...traces.map((trace) => trace.seconds));
-  const x = scale(0, longest, LEFT, right);
+  const x = scale(0, longest, LEFT, width - RIGHT);
   const y = scale(Math.min(...lengths) - margin, Math.max(...lengths) + margin, BOTTOM, TOP);
   const svg = node("svg", { width, height: HEIGHT, role: "img" });
   svg.append(node("title", {}, summary(runs, traces)));
-  drawAxes(svg, x, y, right);
-  const labels: { y: number; text: string; colour: string }[] = [];
+  drawAxes(svg, x, y, width - RIGHT);
   traces.forEach((trace, index) => {
-    const last = trace.history.at(-1);
-    if (!last) return;
-    const colour = colours.runs[index]!;
-    svg.append(stepLine(trace, x, y, colour, DASHES[index]!));
-    labels.push({ y: y.at(last.length), text: runName(runs[index]!), colour });
+    if (trace.history.length > 0) svg.append(stepLine(trace, x, y, strokeOf(index, colours)));
   });
-  for (const label of spread(labels, 15)) {
-    svg.append(
-      node("text", { x: right + 8, y: label.y + 4, style: `fill: ${label.colour}` }, label.text),
-    );
-  }
   return svg;
+}
+
+/** What the lines stand for. */
+export function legend(runs: readonly Run[], colours: Palette): HTMLLIElement[] {
+  return runs.map((run, index) => {
+    const svg = node("svg", { width: 34, height: 8, "aria-hidden": "true" });
+    svg.append(node("path", { d: "M1 4H33", ...strokeOf(index, colours) }));
+    return make("li", {}, svg, runName(run));
+  });
+}
+
+function strokeOf(index: number, colours: Palette) {
+  return {
+    fill: "none",
+    stroke: colours.runs[index]!,
+    "stroke-width": 2,
+    "stroke-dasharray": DASHES[index]!,
+    "stroke-linejoin": "round",
+  };
 }
 
 function drawAxes(svg: SVGElement, x: Scale, y: Scale, right: number): void {
@@ -72,47 +79,28 @@ function drawAxes(svg: SVGElement, x: Scale, y: Scale, right: number): void {
     const at = y.at(value);
     svg.append(
       node("line", { class: "grid", x1: LEFT, x2: right, y1: at, y2: at }),
-      node("text", { x: LEFT - 8, y: at + 4, "text-anchor": "end" }, short(value)),
+      node("text", { x: LEFT - 8, y: at + 4, "text-anchor": "end" }, `${short(value)} m`),
     );
   }
   for (const value of ticks(x.low, x.high, 5)) {
     const at = x.at(value);
-    svg.append(node("text", { x: at, y: BOTTOM + 18, "text-anchor": "middle" }, short(value)));
+    svg.append(
+      node("text", { x: at, y: BOTTOM + 18, "text-anchor": "middle" }, `${short(value)} s`),
+    );
   }
-  svg.append(
-    node("text", { x: right, y: BOTTOM + 34, "text-anchor": "end" }, "seconds of search"),
-    node("text", { x: 8, y: BOTTOM + 34 }, "metres"),
-  );
 }
 
 function stepLine(
   { history, seconds }: Trace,
   x: Scale,
   y: Scale,
-  colour: string,
-  dashes: string,
+  stroke: Record<string, string | number>,
 ): SVGElement {
   const steps = history.map(({ seconds: at, length }, index) => {
     const [px, py] = [x.at(at).toFixed(1), y.at(length).toFixed(1)];
     return index === 0 ? `M${px} ${py}` : `H${px}V${py}`;
   });
-  return node("path", {
-    d: `${steps.join("")}H${x.at(seconds).toFixed(1)}`,
-    fill: "none",
-    stroke: colour,
-    "stroke-width": 2,
-    "stroke-dasharray": dashes,
-    "stroke-linejoin": "round",
-  });
-}
-
-/** Moves labels apart so that none covers another. */
-export function spread<T extends { y: number }>(labels: readonly T[], distance: number): T[] {
-  const sorted = labels.map((label) => ({ ...label })).sort((a, b) => a.y - b.y);
-  for (let i = 1; i < sorted.length; i++) {
-    sorted[i]!.y = Math.max(sorted[i]!.y, sorted[i - 1]!.y + distance);
-  }
-  return sorted;
+  return node("path", { d: `${steps.join("")}H${x.at(seconds).toFixed(1)}`, ...stroke });
 }
 
 function summary(runs: readonly Run[], traces: readonly Trace[]): string {

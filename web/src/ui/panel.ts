@@ -146,7 +146,7 @@ export class Panel {
     const { length, vertices, time, proposal, status } = this.figures;
     const figure = (name: string, value: HTMLElement) =>
       make("div", {}, make("dt", {}, name), value);
-    const outcome = figure("Outcome", status);
+    const outcome = figure("Path", status);
     outcome.className = "status";
     return make(
       "dl",
@@ -194,7 +194,7 @@ function statusText({ phase, response }: Trace): string {
   if (phase === "planning") return "searching…";
   if (phase === "waiting") return "waiting";
   if (!response) return "";
-  return response.solved ? `path found (${response.status})` : `no path (${response.status})`;
+  return `${response.solved ? "found" : "none"} (${response.status})`;
 }
 
 function describe(run: Run, trace: Trace | undefined): string {
