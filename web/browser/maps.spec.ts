@@ -92,6 +92,6 @@ test("maps of the server can be opened again", async ({ page }) => {
   await expect(page.locator("#facts")).toContainText("100 × 100 cells");
   await page.getByRole("button", { name: "Forest" }).click();
   await expect(page.locator("#facts")).toContainText("480 × 480 cells");
-  await page.locator("#maps").selectOption({ label: "depot" });
+  await page.locator("#maps").selectOption({ label: "depot, 100 × 100" });
   await expect(page.locator("#facts")).toContainText("100 × 100 cells");
 });

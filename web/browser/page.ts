@@ -26,6 +26,10 @@ export class Playground {
     return this.panel(index).locator(`[data-figure=${name}]`);
   }
 
+  private async text(name: string, index: number): Promise<string> {
+    return (await this.figure(name, index).textContent()) ?? "";
+  }
+
   handle(end: End): Locator {
     return this.panel().locator(`.handle[data-end=${end}]:not(.heading)`);
   }
@@ -41,8 +45,8 @@ export class Playground {
 
   async figures(index = 0): Promise<Figures> {
     await this.planned(index);
-    const length = await this.figure("length", index).innerText();
-    const vertices = await this.figure("vertices", index).innerText();
+    const length = await this.text("length", index);
+    const vertices = await this.text("vertices", index);
     return { length: Number.parseFloat(length), vertices: Number(vertices.replaceAll(",", "")) };
   }
 

@@ -69,7 +69,9 @@ export class Controls {
   async refreshMaps(): Promise<void> {
     this.known = await this.app.client.maps();
     byId("maps-field").hidden = this.known.length === 0;
-    const choices = this.known.map(({ id, name }) => [id, name] as const);
+    const choices = this.known.map(
+      ({ id, name, columns, rows }) => [id, `${name}, ${columns} × ${rows}`] as const,
+    );
     setChoices(this.maps, [[OTHER, "choose…"], ...choices], OTHER);
     this.update();
   }

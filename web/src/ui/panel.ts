@@ -193,7 +193,7 @@ function proposalTime({ region, response }: Trace): string {
 function statusText({ phase, response }: Trace): string {
   if (phase === "planning") return "searching…";
   if (phase === "waiting") return "waiting";
-  if (!response) return "";
+  if (phase === "failed" || !response) return "no plan";
   return `${response.solved ? "found" : "none"} (${response.status})`;
 }
 

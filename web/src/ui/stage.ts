@@ -263,6 +263,7 @@ export class Stage {
     if (share >= 1 || longest === 0) {
       this.driveBegan = null;
       this.onDrive(false);
+      return [];
     }
     return walkers.map((walker) => walker?.at(Math.min(share * longest, walker.length)) ?? null);
   }
