@@ -109,7 +109,7 @@ def test_no_path_is_an_answer(client, room_id, problem):
 
 
 def test_runs_are_compared_in_their_order(client, problem):
-    options = {"guide": None, "max_vertices": 100, "time_limit": 20.0, "seed": 1}
+    options = {"guide": None, "max_vertices": 1000, "time_limit": 20.0, "seed": 1}
     planners = ["RRTstar", "BITstar", "RRTConnect"]
     ends = {key: problem[key] for key in ("map", "start", "goal")}
     runs = [{"planner": planner, **options} for planner in planners]
