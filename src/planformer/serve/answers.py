@@ -59,7 +59,7 @@ def region_answer(region: Region, guide: str, seconds: float) -> RegionResponse:
         guide=guide,
         rows=rows,
         columns=columns,
-        probability=_rounded(probability),
+        probability=rounded(probability),
         anchors=anchors.reshape(-1, 2).round(_MILLIMETRES).tolist(),
         anchor_size=_spacing(anchors, region.patch),
         mask=base64.b64encode(mask_png(region.mask)).decode("ascii"),
@@ -102,19 +102,20 @@ def tree_answer(tree: Tree) -> TreeResponse:
     """The response for a tree or roadmap."""
     parents, links = parents_and_links(tree)
     return TreeResponse(
-        vertices=_rounded(tree.vertices[:, :2]), parents=parents.tolist(), links=links
+        vertices=rounded(tree.vertices[:, :2]), parents=parents.tolist(), links=links.tolist()
     )
 
 
-def parents_and_links(tree: Tree) -> tuple[NDArray[np.int64], list[int]]:
+def parents_and_links(tree: Tree) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """A parent of each vertex, -1 where it has none, and the edges that this leaves out, flat."""
     parents = np.full(len(tree.vertices), -1, np.int64)
     parent, child = tree.edges[:, 0], tree.edges[:, 1]
     parents[child[::-1]] = parent[::-1]  # the first edge of each child stays
     more = tree.edges[parents[child] != parent]
-    return parents, more.ravel().tolist()
+    return parents, more.ravel()
 
 
-def _rounded(values: NDArray[Any]) -> list[float]:
+def rounded(values: NDArray[Any]) -> list[float]:
+    """Flat values to a thousandth: millimetres on the way to a screen."""
     numbers: list[float] = np.asarray(values, np.float64).round(_MILLIMETRES).ravel().tolist()
     return numbers

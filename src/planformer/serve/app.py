@@ -11,6 +11,7 @@ from fastapi_offline import FastAPIOffline
 from prometheus_client import CONTENT_TYPE_LATEST, generate_latest
 
 import planformer
+from planformer.serve.body_limit import LimitBodies
 from planformer.serve.errors import handle_errors
 from planformer.serve.guard import GuardHosts
 from planformer.serve.map_routes import map_routes
@@ -51,7 +52,6 @@ def create_app(settings: ServeSettings | None = None) -> FastAPI:
         description=_DESCRIPTION,
         redoc_url=None,
         lifespan=_lifespan,
-        max_body_size=service.settings.body_bytes,
     )
     app.state.service = service
     handle_errors(app)
@@ -59,6 +59,7 @@ def create_app(settings: ServeSettings | None = None) -> FastAPI:
     app.include_router(plan_routes(service))
     _service_routes(app, service)
     serve_page(app)
+    app.add_middleware(LimitBodies, settings=service.settings)
     app.add_middleware(CountRequests, metrics=service.metrics)
     if service.settings.hosts is not None:
         app.add_middleware(GuardHosts, hosts=service.settings.hosts)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from http import HTTPStatus
 from typing import Any
 
 from fastapi import FastAPI, Request
@@ -33,6 +32,8 @@ _STATUS: dict[type[PlanformerError], int] = {
 }
 """The first entry that fits decides."""
 
+_NAMES = {404: "NotFound", 405: "MethodNotAllowed", 413: "TooLarge"}
+"""Names of errors that the framework finds."""
 _RETRY_SECONDS = {429: "1", 503: "5"}
 _SHOWN_PROBLEMS = 3
 
@@ -75,7 +76,7 @@ def handle_errors(app: FastAPI) -> None:
 
     @app.exception_handler(HTTPException)
     async def http(request: Request, error: HTTPException) -> JSONResponse:
-        name = HTTPStatus(error.status_code).phrase.title().replace(" ", "")
+        name = _NAMES.get(error.status_code, "MalformedRequest")
         body = ErrorBody(error=name, message=str(error.detail))
         response = refusal(error.status_code, body)
         response.headers.update(error.headers or {})

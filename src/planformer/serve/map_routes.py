@@ -24,8 +24,6 @@ _GENERATORS = {
     MapKind.INDOOR: generate_indoor,
 }
 _FOREVER = "public, max-age=31536000, immutable"
-_FILES = 2
-"""Files of one map: a ROS map's description and its picture."""
 
 
 def map_routes(service: Service) -> APIRouter:
@@ -42,8 +40,6 @@ def map_routes(service: Service) -> APIRouter:
         status_code=201,
         summary="Upload a map",
         responses=documented(400, 403, 413, 422, 507),
-        max_body_size=settings.upload_bytes,
-        form_limits={"max_files": _FILES, "max_fields": 2, "max_part_size": 1000},
     )
     async def upload(
         files: Annotated[

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import AsyncIterator
+
 from fastapi import APIRouter, Request
-from fastapi.responses import Response
+from fastapi.responses import Response, StreamingResponse
 
 from planformer.errors import InvalidParameter
 from planformer.planning import CancelToken
@@ -12,6 +14,7 @@ from planformer.serve.plans import Run, answer, check_run, execute, propose
 from planformer.serve.requests import CompareRequest, PlanRequest, ProposeRequest
 from planformer.serve.responses import CompareResponse, PlanResponse, RegionResponse
 from planformer.serve.service import Service
+from planformer.serve.stream import plan_events
 
 _ERRORS = documented(400, 404, 422, 429, 503)
 
@@ -48,6 +51,27 @@ def plan_routes(service: Service) -> APIRouter:
         return await pool.run(request, lambda cancel: _json(search(run, cancel)))
 
     @routes.post(
+        "/plan/stream",
+        summary="Plan a path and see it found",
+        description="Server-sent events: `region` (a RegionResponse, if asked for), `progress` (a "
+        "ProgressResponse, some 15 a second), then `result` (a PlanResponse) or `error` (an "
+        "ErrorBody). What is wrong with the request is an ordinary error response.",
+        response_class=StreamingResponse,
+        responses={
+            200: {"content": {"text/event-stream": {"schema": {"type": "string"}}}},
+            **_ERRORS,
+        },
+    )
+    async def plan_stream(request: Request, body: PlanRequest) -> StreamingResponse:
+        run = check_run(await service.grid(body.map), body, body, settings)
+        events = plan_events(service, request, run)
+        first = await anext(events)
+        headers = {"Cache-Control": "no-store", "X-Accel-Buffering": "no"}
+        return StreamingResponse(
+            _chained(first, events), media_type="text/event-stream", headers=headers
+        )
+
+    @routes.post(
         "/compare",
         summary="Plan one problem several times",
         description="One search after the other, so that their times compare.",
@@ -67,6 +91,12 @@ def plan_routes(service: Service) -> APIRouter:
         )
 
     return routes
+
+
+async def _chained(first: bytes, rest: AsyncIterator[bytes]) -> AsyncIterator[bytes]:
+    yield first
+    async for message in rest:
+        yield message
 
 
 def _json(body: PlanResponse | RegionResponse | CompareResponse) -> Response:

@@ -12,7 +12,7 @@ from planformer.baselines import learned_planner_names
 from planformer.errors import InvalidParameter, UnknownGuide
 from planformer.guidance import Region, RegionProposer, guide_names, load_network, resolve_guide
 from planformer.maps import OccupancyGrid
-from planformer.planning import CancelToken, PlanResult, Problem
+from planformer.planning import CancelToken, PlanResult, Problem, Progress
 from planformer.planning.search import checked_seed
 from planformer.robots import DubinsCar, PointRobot, ReedsSheppCar, Robot
 from planformer.serve.answers import plan_answer, region_answer
@@ -79,6 +79,7 @@ def execute(
     settings: ServeSettings,
     *,
     on_region: Callable[[Region, float], None] | None = None,
+    progress: Progress | None = None,
 ) -> PlanResult:
     """Search.
 
@@ -87,6 +88,7 @@ def execute(
         cancel: Ends the search.
         settings: Bounds.
         on_region: Gets the region and the seconds it took, before the search begins.
+        progress: Gets snapshots of the search.
     """
     options = run.options
     guide: RegionProposer | None = None
@@ -107,6 +109,7 @@ def execute(
         seed=run.seed,
         keep_tree=options.tree,
         cancel=cancel,
+        progress=progress,
     )
 
 

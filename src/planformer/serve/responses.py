@@ -96,6 +96,38 @@ class TreeResponse(Response):
     ] = []
 
 
+class TreeUpdate(Response):
+    """What turns the tree of the last event into that of this one.
+
+    Vertices keep their numbers. First drop the vertices from `first` on (0: all), then append.
+    """
+
+    first: Annotated[int, Field(description="Number of the first new vertex.")]
+    vertices: Annotated[
+        list[float], Field(description="The new vertices, x0, y0, x1, y1, ... [m], rounded to mm.")
+    ]
+    parents: Annotated[list[int], Field(description="Of each new vertex; -1 for a root.")]
+    changed: Annotated[
+        list[int],
+        Field(description="Older vertices with another parent: vertex, parent, vertex, ..."),
+    ]
+    links: Annotated[
+        list[int], Field(description="All further edges of a roadmap, i0, j0, i1, j1, ...")
+    ]
+
+
+class ProgressResponse(Response):
+    """What a search has found so far."""
+
+    seconds: Annotated[float, Field(description="Since the search began [s].")]
+    length: Annotated[float | None, Field(description="Of the best path [m].")] = None
+    vertices: Annotated[int, Field(description="States that the planner holds.")]
+    path: Annotated[
+        list[list[float]] | None, Field(description="The best path, if it is a new one.")
+    ] = None
+    tree: Annotated[TreeUpdate | None, Field(description="If it was asked for.")] = None
+
+
 class PlanResponse(Response):
     """A plan: the library's `PlanResult`."""
 
