@@ -6,7 +6,7 @@ const WHOLE = { vertices: [0, 0, 1, 0, 1, 1, 2, 2], parents: [-1, 0, 1, 0] };
 describe("TreeLines", () => {
   test("a whole tree becomes one segment a vertex, a point for the root", () => {
     const lines = new TreeLines();
-    expect(lines.add(WHOLE)).toBe(true);
+    expect(lines.add(WHOLE)).toBe(false); // nothing was there
     expect([...lines.segments]).toEqual([0, 0, 0, 0, 0, 0, 1, 0, 1, 0, 1, 1, 0, 0, 2, 2]);
   });
 
@@ -40,6 +40,14 @@ describe("TreeLines", () => {
     lines.add(WHOLE);
     lines.add({ vertices: [9, 9], parents: [-1] });
     expect([...lines.segments]).toEqual([9, 9, 9, 9]);
+  });
+
+  test("an increment may replace the last vertices", () => {
+    const lines = new TreeLines();
+    lines.add(WHOLE);
+    expect(lines.add({ first: 3, vertices: [9, 9], parents: [1] })).toBe(true);
+    expect([...lines.segments.slice(-4)]).toEqual([1, 0, 9, 9]);
+    expect(lines.vertices).toBe(4);
   });
 
   test("a lost increment is noticed", () => {

@@ -87,7 +87,7 @@ export interface RegionResponse {
 }
 
 export interface TreeResponse {
-  /** Index of the first vertex in this increment; 0 or absent replaces the whole tree. */
+  /** Index of the first vertex of this increment, which replaces all from there on; 0 if absent. */
   first?: number;
   /** x0, y0, x1, y1, ... of the new vertices. */
   vertices: number[];

@@ -34,7 +34,7 @@ export class TreeLayer {
 
   add(tree: TreeResponse): void {
     if (this.lines.add(tree)) this.stale = true;
-    if (this.drawn > this.lines.vertices) this.view = null;
+    this.drawn = Math.min(this.drawn, this.lines.vertices);
   }
 
   /** Whether the image lags behind and wants to be drawn again when there is time. */

@@ -24,6 +24,10 @@ class Floats {
     this.values[at + 3] = d;
   }
 
+  shorten(length: number): void {
+    this.length = Math.min(this.length, length);
+  }
+
   get view(): Float32Array {
     return this.values.subarray(0, this.length);
   }
@@ -48,16 +52,16 @@ export class TreeLines {
   }
 
   /**
-   * Adds an increment; one from vertex 0 replaces what is there.
+   * Adds an increment: the vertices from `first` on are replaced by the new ones.
    *
    * @returns Whether segments that were there have changed.
    */
   add({ first = 0, vertices, parents, changed = [], links = [] }: TreeResponse): boolean {
-    const replaces = first === 0;
-    if (replaces) this.edges = new Floats();
-    else if (first !== this.vertices) {
+    if (first > this.vertices) {
       throw new RangeError(`increment from vertex ${first} after ${this.vertices}`);
     }
+    const replaces = first < this.vertices;
+    this.edges.shorten(4 * first);
     this.append(vertices, parents);
     for (let i = 0; i + 1 < changed.length; i += 2) this.hang(changed[i]!, changed[i + 1]!);
     const hadLinks = this.roadmap.length > 0;
