@@ -12,7 +12,7 @@ export interface Job {
 }
 
 /** Seconds that all runs together may search while one drags. */
-const LIVE_SECONDS = 0.025;
+const LIVE_SECONDS = 0.02;
 /** Milliseconds until a busy server is asked again, and how often. */
 const RETRY_AFTER = 300;
 const TRIES = 10;

@@ -17,15 +17,28 @@ export interface Placed {
   height: number;
 }
 
-/** Draws in the world frame, with smooth or with crisp pixels. */
-export function drawPlaced(context: Context, map: MapInfo, placed: Placed, smooth: boolean): void {
+/** How an image is drawn that is this many pixels of the screen large for each of its own. */
+export function smoothing(pixels: number): Smoothing {
+  if (pixels >= 2) return "off"; // one sees cells as they are
+  return pixels >= 1 ? "low" : "medium"; // which costs more, and keeps thin walls
+}
+
+export type Smoothing = "off" | "low" | "medium";
+
+/** Draws in the world frame. */
+export function drawPlaced(
+  context: Context,
+  map: MapInfo,
+  placed: Placed,
+  smooth: Smoothing,
+): void {
   const { image, left, bottom, width, height } = placed;
   context.save();
   inMapFrame(context, map);
   context.translate(left, bottom + height);
   context.scale(width / image.width, -height / image.height);
-  context.imageSmoothingEnabled = smooth;
-  context.imageSmoothingQuality = "medium";
+  context.imageSmoothingEnabled = smooth !== "off";
+  if (smooth !== "off") context.imageSmoothingQuality = smooth;
   context.drawImage(image, 0, 0);
   context.restore();
 }

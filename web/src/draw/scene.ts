@@ -6,7 +6,7 @@ import type { Pose } from "../geometry/points";
 import { type Size, type View, worldMatrix } from "../geometry/view";
 import { isCar, type RobotModel } from "../model/problem";
 import type { Palette } from "./palette";
-import { clipToMap, drawPlaced, fillMap, type Placed } from "./rasters";
+import { clipToMap, drawPlaced, fillMap, type Placed, smoothing } from "./rasters";
 import type { TreeLayer } from "./treeLayer";
 
 export interface Layers {
@@ -54,8 +54,9 @@ export function drawScene(context: CanvasRenderingContext2D, scene: Scene): void
   context.save();
   clipToMap(context, map);
   fillMap(context, map, colours.floor);
-  if (layers.heat && scene.heat) drawPlaced(context, map, scene.heat, true);
-  const smooth = (placed: Placed) => (placed.width / placed.image.width) * view.scale < 2;
+  if (layers.heat && scene.heat) drawPlaced(context, map, scene.heat, "low");
+  const smooth = ({ width, image }: Placed) =>
+    smoothing((width / image.width) * view.scale * ratio);
   if (layers.region && scene.region) {
     drawPlaced(context, map, scene.region, smooth(scene.region));
   }
