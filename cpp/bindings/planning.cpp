@@ -59,7 +59,7 @@ Answer run_plan(const BlockedArray& blocked, double resolution, const RobotModel
                 const std::array<double, 3>& start, const std::array<double, 3>& goal,
                 const std::string& planner, const Region* region, double exploration,
                 const Limits& limits, std::uint32_t seed, bool keep_tree,
-                const Cancellation* cancellation) {
+                const Cancellation* cancellation, Progress* progress) {
     Query query;
     query.free_space = free_space_of(blocked, resolution);
     query.robot = robot;
@@ -73,6 +73,7 @@ Answer run_plan(const BlockedArray& blocked, double resolution, const RobotModel
     query.seed = seed;
     query.keep_tree = keep_tree;
     query.cancellation = cancellation;
+    query.progress = progress;
     bool interrupted = false;
     query.interrupted = [&interrupted] { return interrupted = python_interrupted(); };
     Answer answer;
@@ -122,6 +123,23 @@ void register_planning(nb::module_& m) {
         .def(nb::init<>())
         .def("cancel", &Cancellation::cancel, "End the plans that hold this object; thread-safe.")
         .def_prop_ro("is_cancelled", &Cancellation::is_cancelled);
+    nb::class_<Snapshot>(m, "Snapshot")
+        .def_ro("seconds", &Snapshot::seconds)
+        .def_ro("length", &Snapshot::length)
+        .def_ro("states", &Snapshot::states)
+        .def_prop_ro(
+            "path", [](const Snapshot& s) { return to_numpy(s.path); }, nb::rv_policy::move)
+        .def_prop_ro(
+            "tree_vertices", [](const Snapshot& s) { return to_numpy(s.tree.vertices); },
+            nb::rv_policy::move)
+        .def_prop_ro(
+            "tree_edges", [](const Snapshot& s) { return edges_of(s.tree); }, nb::rv_policy::move);
+    nb::class_<Progress>(m, "Progress", "The last snapshot of a plan; thread-safe.")
+        .def(nb::init<double, bool>(), nb::arg("interval"), nb::arg("keep_tree"))
+        .def("latest", [](const Progress& self) -> std::optional<Snapshot> {
+            const auto snapshot = self.latest();
+            return snapshot ? std::make_optional(*snapshot) : std::nullopt;
+        });
     nb::class_<Region::Ends>(m, "Ends", "Where a car starts and arrives.")
         .def(
             "__init__",
@@ -164,6 +182,7 @@ void register_planning(nb::module_& m) {
           nb::arg("start"), nb::arg("goal"), nb::kw_only(), nb::arg("planner"),
           nb::arg("region") = nb::none(), nb::arg("exploration") = 0.0, nb::arg("limits"),
           nb::arg("seed"), nb::arg("keep_tree") = false, nb::arg("cancellation") = nb::none(),
+          nb::arg("progress") = nb::none(),
           "Plan in the map's local frame; see planformer.planning.search.");
     m.def("planner_names", &planner_names, nb::arg("robot"));
     m.def(

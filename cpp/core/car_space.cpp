@@ -33,8 +33,11 @@ void CarSpace::set_pose(const Pose& pose, ob::State* state) {
 }
 
 Curve CarSpace::curve(const ob::State* from, const ob::State* to) const {
-    return reverse_ ? reeds_shepp(pose(from), pose(to), turning_radius_)
-                    : dubins(pose(from), pose(to), turning_radius_);
+    return curve(pose(from), pose(to));
+}
+
+Curve CarSpace::curve(const Pose& from, const Pose& to) const {
+    return reverse_ ? reeds_shepp(from, to, turning_radius_) : dubins(from, to, turning_radius_);
 }
 
 double CarSpace::distance(const ob::State* from, const ob::State* to) const {

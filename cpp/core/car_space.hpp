@@ -23,6 +23,7 @@ public:
 
     /// The shortest curve between two states.
     Curve curve(const ompl::base::State* from, const ompl::base::State* to) const;
+    Curve curve(const Pose& from, const Pose& to) const;
 
     /// The pose that a state of this space holds.
     static Pose pose(const ompl::base::State* state);

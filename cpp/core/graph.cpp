@@ -8,6 +8,8 @@
 #include <ompl/geometric/planners/informedtrees/aitstar/Vertex.h>
 #include <ompl/geometric/planners/informedtrees/bitstar/ImplicitGraph.h>
 #include <ompl/geometric/planners/informedtrees/bitstar/Vertex.h>
+#include <ompl/geometric/planners/rrt/RRT.h>
+#include <ompl/geometric/planners/rrt/RRTXstatic.h>
 #include <ompl/geometric/planners/rrt/RRTstar.h>
 
 #include <mutex>
@@ -25,7 +27,7 @@ namespace {
 // getPlannerData of BIT*, ABIT*, AIT* and EIT* keeps every vertex that it has ever reported in a
 // set that lives as long as the process (OMPL 1.5 to 1.7): memory grows with each plan and threads
 // race for the set. So the graphs of the first three are read from their members. These are
-// private; only an explicit instantiation may name them ([temp.explicit] in the C++ standard).
+// not public; only an explicit instantiation may name them ([temp.explicit] in the C++ standard).
 
 template <typename Tag, auto Member>
 struct Expose {
@@ -41,12 +43,6 @@ struct AitTag {
     friend constexpr auto graph_member(AitTag);
 };
 template struct Expose<AitTag, &og::AITstar::graph_>;
-
-// RRT* would copy its whole tree to tell how large it is.
-struct RrtTag {
-    friend constexpr auto graph_member(RrtTag);
-};
-template struct Expose<RrtTag, &og::RRTstar::nn_>;
 
 /// What BIT* and AIT* call the same things.
 struct BitGraph {
@@ -94,6 +90,63 @@ Tree read_vertices(const Planner& planner) {
     return tree;
 }
 
+// OMPL's planner data takes milliseconds for a thousand vertices, which is too long for snapshots
+// of a search. The trees of planners that go on until a limit are therefore read directly as well.
+
+struct RrtTag {
+    friend constexpr auto graph_member(RrtTag);
+};
+template struct Expose<RrtTag, &og::RRT::nn_>;
+
+struct RrtStarTag {
+    friend constexpr auto graph_member(RrtStarTag);
+};
+template struct Expose<RrtStarTag, &og::RRTstar::nn_>;
+
+struct RrtXTag {
+    friend constexpr auto graph_member(RrtXTag);
+};
+template struct Expose<RrtXTag, &og::RRTXstatic::nn_>;
+
+template <typename Motions>
+Tree read_motions(const Motions& motions, const ob::StateSpace& space) {
+    std::unordered_map<const void*, std::uint32_t> index(2 * motions.size());
+    Tree tree;
+    tree.vertices.reserve(motions.size());
+    tree.edges.reserve(motions.size());
+    for (const auto* motion : motions) {
+        index.emplace(motion, static_cast<std::uint32_t>(tree.vertices.size()));
+        tree.vertices.push_back(read_state(space, motion->state));
+    }
+    for (const auto* motion : motions) {
+        const auto parent = index.find(motion->parent);
+        if (parent != index.end()) tree.edges.emplace_back(parent->second, index[motion]);
+    }
+    return tree;
+}
+
+template <typename Motion>
+std::vector<Motion> motions_of(const ompl::NearestNeighbors<Motion>& neighbours) {
+    std::vector<Motion> motions;
+    neighbours.list(motions);
+    return motions;
+}
+
+/// Gives `use` the motions of a planner that keeps its tree in one structure of neighbours.
+template <typename Use>
+bool use_motions(const ob::Planner& planner, Use&& use) {
+    if (const auto* star = dynamic_cast<const og::RRTstar*>(&planner)) {
+        use(*(star->*graph_member(RrtStarTag{})));  // Informed RRT* and SORRT* too
+    } else if (const auto* x = dynamic_cast<const og::RRTXstatic*>(&planner)) {
+        use(*(x->*graph_member(RrtXTag{})));  // RRT# too
+    } else if (const auto* rrt = dynamic_cast<const og::RRT*>(&planner)) {
+        use(*(rrt->*graph_member(RrtTag{})));
+    } else {
+        return false;
+    }
+    return true;
+}
+
 /// `getPlannerData` for all planners but those above; one at a time because of EIT*.
 void copy_graph(const ob::Planner& planner, ob::PlannerData* data) {
     static std::mutex mutex;
@@ -137,8 +190,9 @@ std::size_t count_vertices(const ob::Planner& planner) {
     if (const auto* ait = dynamic_cast<const og::AITstar*>(&planner)) {
         return AitGraph::vertices(*ait).size();
     }
-    if (const auto* rrt = dynamic_cast<const og::RRTstar*>(&planner)) {
-        return (rrt->*graph_member(RrtTag{}))->size();
+    std::size_t motions = 0;
+    if (use_motions(planner, [&](const auto& neighbours) { motions = neighbours.size(); })) {
+        return motions;
     }
     ob::PlannerData data(planner.getSpaceInformation());
     copy_graph(planner, &data);
@@ -154,6 +208,12 @@ Tree read_tree(const ob::Planner& planner) {
     if (const auto* ait = dynamic_cast<const og::AITstar*>(&planner)) {
         return read_vertices<AitGraph>(*ait);
     }
+    Tree tree;
+    const bool is_read = use_motions(planner, [&](const auto& neighbours) {
+        tree =
+            read_motions(motions_of(neighbours), *planner.getSpaceInformation()->getStateSpace());
+    });
+    if (is_read) return tree;
     return read_planner_data(planner);
 }
 

@@ -14,12 +14,13 @@ constexpr double kInterruptPeriod = 0.02;  // [s]
 
 Monitor::Monitor(const Limits& limits, Clock::time_point started, const ob::Planner& planner,
                  const StateCount& states, const Cancellation* cancellation,
-                 std::function<bool()> interrupted)
+                 std::function<bool()> interrupted, Recorder* recorder)
     : limits_(limits),
       planner_(planner),
       states_(states),
       cancellation_(cancellation),
       interrupted_(std::move(interrupted)),
+      recorder_(recorder),
       started_(started),
       next_vertex_check_(limits.vertices) {}
 
@@ -29,7 +30,9 @@ ob::PlannerTerminationCondition Monitor::condition() {
 
 bool Monitor::should_stop() {
     if (reason_ != Outcome::kFinished) return true;
-    if (seconds_since(started_) >= limits_.seconds) {
+    const double seconds = seconds_since(started_);
+    if (recorder_ != nullptr && recorder_->is_due(seconds)) recorder_->take(seconds);
+    if (seconds >= limits_.seconds) {
         reason_ = Outcome::kTimeLimit;
     } else if (is_interrupted()) {
         reason_ = Outcome::kCancelled;

@@ -9,6 +9,7 @@
 #include <functional>
 #include <limits>
 
+#include "core/progress.hpp"
 #include "core/state_count.hpp"
 
 namespace planformer {
@@ -51,14 +52,14 @@ private:
     std::atomic<bool> cancelled_{false};
 };
 
-/// Ends a search at its limits and remembers which of them it was.
+/// Ends a search at its limits and remembers which of them it was; lets snapshots be taken.
 class Monitor {
 public:
     /// The time limit counts from `started`; `interrupted` is asked about every 20 ms and may be
-    /// empty. Planner and count have to outlive the monitor.
+    /// empty, and so may the recorder. Planner, count and recorder have to outlive the monitor.
     Monitor(const Limits& limits, Clock::time_point started, const ompl::base::Planner& planner,
             const StateCount& states, const Cancellation* cancellation,
-            std::function<bool()> interrupted);
+            std::function<bool()> interrupted, Recorder* recorder);
 
     ompl::base::PlannerTerminationCondition condition();
 
@@ -75,6 +76,7 @@ private:
     const StateCount& states_;
     const Cancellation* cancellation_;
     std::function<bool()> interrupted_;
+    Recorder* recorder_;
     Clock::time_point started_;
     double next_interrupt_check_ = 0.0;
     std::size_t next_vertex_check_;

@@ -6,13 +6,14 @@
 #include <ompl/geometric/PathGeometric.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 
 #include "core/car_space.hpp"
 #include "core/objective.hpp"
+#include "core/path.hpp"
 #include "core/seeding.hpp"
 #include "core/sst.hpp"
 #include "core/validity.hpp"
@@ -75,22 +76,16 @@ ob::ProblemDefinitionPtr make_problem(const Query& query, const Extent& extent,
     return problem;
 }
 
-/// The states of a path, and for a car the poses between them at which it was checked.
 std::vector<Pose> read_path(const og::PathGeometric& path, double step) {
     const ob::StateSpace& space = *path.getSpaceInformation()->getStateSpace();
-    const auto* car = dynamic_cast<const CarSpace*>(&space);
-    const auto count = static_cast<unsigned int>(path.getStateCount());
-    std::vector<Pose> poses{read_state(space, path.getState(0))};
-    for (unsigned int i = 1; i < count; ++i) {
-        const Pose target = read_state(space, path.getState(i));
-        if (car == nullptr) {
-            poses.push_back(target);
-        } else {
-            append_motion(car->curve(path.getState(i - 1), path.getState(i)), target, step, &poses);
-        }
+    std::vector<Pose> states;
+    for (std::size_t i = 0; i < path.getStateCount(); ++i) {
+        states.push_back(read_state(space, path.getState(static_cast<unsigned int>(i))));
     }
-    return poses;
+    return joined_states(space, states, step);
 }
+
+double pose_spacing(const Query& query) { return kArcStep * query.free_space.resolution; }
 
 Answer plan_geometric(const Query& query) {
     const auto started = Clock::now();
@@ -110,7 +105,7 @@ Answer plan_geometric(const Query& query) {
     return run(query, started, *planner, *states, [&](Answer* answer) {
         const auto& path = *problem->getSolutionPath()->as<og::PathGeometric>();
         answer->length = path.length();
-        answer->path = read_path(path, kArcStep * query.free_space.resolution);
+        answer->path = read_path(path, pose_spacing(query));
     });
 }
 
@@ -118,7 +113,10 @@ Answer plan_geometric(const Query& query) {
 
 Answer run(const Query& query, Clock::time_point started, ob::Planner& planner,
            const StateCount& states, const std::function<void(Answer*)>& read_solution) {
-    Monitor monitor(query.limits, started, planner, states, query.cancellation, query.interrupted);
+    std::optional<Recorder> recorder;
+    if (query.progress) recorder.emplace(query.progress, &planner, states, pose_spacing(query));
+    Monitor monitor(query.limits, started, planner, states, query.cancellation, query.interrupted,
+                    recorder ? &*recorder : nullptr);
     planner.solve(monitor.condition());
     Answer answer;
     answer.length = std::numeric_limits<double>::infinity();

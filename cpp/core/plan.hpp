@@ -12,6 +12,7 @@
 #include "core/graph.hpp"
 #include "core/monitor.hpp"
 #include "core/planners.hpp"
+#include "core/progress.hpp"
 #include "core/region.hpp"
 
 namespace planformer {
@@ -37,6 +38,7 @@ struct Query {
     std::uint32_t seed = 1;
     bool keep_tree = false;
     const Cancellation* cancellation = nullptr;
+    Progress* progress = nullptr;       ///< gets snapshots of the search
     std::function<bool()> interrupted;  ///< asked every 20 ms whether to give up
 };
 

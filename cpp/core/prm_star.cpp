@@ -1,8 +1,11 @@
 #include "core/prm_star.hpp"
 
+#include <ompl/geometric/PathGeometric.h>
+
 namespace planformer {
 
 namespace ob = ompl::base;
+namespace og = ompl::geometric;
 
 namespace {
 
@@ -20,6 +23,13 @@ void SteadyPRMstar::grow(const ob::PlannerTerminationCondition& ptc, std::size_t
     expandRoadmap(until(now + milestones));
 }
 
+void SteadyPRMstar::report(const ob::PathPtr& path) const {
+    const auto& callback = pdef_->getIntermediateSolutionCallback();
+    if (!path || !callback) return;
+    const auto& states = path->as<og::PathGeometric>()->getStates();
+    callback(this, {states.begin(), states.end()}, bestCost_);
+}
+
 ob::PlannerStatus SteadyPRMstar::solve(const ob::PlannerTerminationCondition& ptc) {
     checkValidity();
     while (const ob::State* start = pis_.nextStart()) {
@@ -34,6 +44,7 @@ ob::PlannerStatus SteadyPRMstar::solve(const ob::PlannerTerminationCondition& pt
     while (!ptc && !satisfied) {
         grow(ptc, kFewestMilestones + milestoneCount() / 10);
         satisfied = maybeConstructSolution(startM_, goalM_, path);
+        report(path);
     }
     if (!path) return ob::PlannerStatus::TIMEOUT;
     ob::PlannerSolution solution(path);

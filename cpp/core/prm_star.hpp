@@ -20,6 +20,7 @@ public:
 
 private:
     void grow(const ompl::base::PlannerTerminationCondition& ptc, std::size_t milestones);
+    void report(const ompl::base::PathPtr& path) const;
 };
 
 }  // namespace planformer

@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from planformer.planning import PlanResult as PlanResult
     from planformer.planning import PlanStatus as PlanStatus
     from planformer.planning import Problem as Problem
+    from planformer.planning import Progress as Progress
     from planformer.planning import path_is_valid as path_is_valid
     from planformer.robots import DubinsCar as DubinsCar
     from planformer.robots import PointRobot as PointRobot
@@ -49,6 +50,7 @@ _HOME = {
     "PlanStatus": "planning",
     "PointRobot": "robots",
     "Problem": "planning",
+    "Progress": "planning",
     "ReedsSheppCar": "robots",
     "Region": "guidance",
     "RegionProposer": "guidance",

@@ -48,6 +48,26 @@ class Cancellation:
     @property
     def is_cancelled(self) -> bool: ...
 
+class Snapshot:
+    @property
+    def seconds(self) -> float: ...
+    @property
+    def length(self) -> float: ...
+    @property
+    def states(self) -> int: ...
+    @property
+    def path(self) -> NDArray[np.float64]: ...  # (N, 3)
+    @property
+    def tree_vertices(self) -> NDArray[np.float64]: ...  # (V, 3)
+    @property
+    def tree_edges(self) -> NDArray[np.uint32]: ...  # (E, 2): parent, child
+
+class Progress:
+    """The last snapshot of a plan; thread-safe."""
+
+    def __init__(self, interval: float, keep_tree: bool) -> None: ...
+    def latest(self) -> Snapshot | None: ...
+
 class Ends:
     def __init__(
         self,
@@ -103,6 +123,7 @@ def plan(
     seed: int,
     keep_tree: bool = False,
     cancellation: Cancellation | None = None,
+    progress: Progress | None = None,
 ) -> Answer: ...
 def planner_names(robot: RobotKind) -> list[str]: ...
 def segment_is_free(

@@ -12,7 +12,14 @@ from planformer.baselines import learned_planner_names, load_planner
 from planformer.errors import UnknownPlanner
 from planformer.guidance import AUTO, Region, RegionProposer, resolve_guide
 from planformer.maps import OccupancyGrid
-from planformer.planning import CancelToken, PlanResult, Problem, SearchLimits, search
+from planformer.planning import (
+    CancelToken,
+    PlanResult,
+    Problem,
+    Progress,
+    SearchLimits,
+    search,
+)
 from planformer.planning.problem import State
 from planformer.robots import DubinsCar, Robot
 
@@ -33,6 +40,7 @@ def plan(
     seed: int | None = None,
     keep_tree: bool = False,
     cancel: CancelToken | None = None,
+    progress: Progress | None = None,
 ) -> PlanResult:
     """Plan a path, guided by a region that a network proposes.
 
@@ -60,6 +68,8 @@ def plan(
         seed: 0 to 2**32 - 1 for a reproducible search (unless the time limit ends it).
         keep_tree: Return the search tree, for pictures; learned planners return none.
         cancel: A `CancelToken` whose `cancel()` ends the search from another thread.
+        progress: A `Progress` whose `latest()` tells another thread what the search has found;
+            learned planners tell nothing.
 
     Returns:
         The result. No path within the limits is a result as well: see its `status`.
@@ -94,6 +104,7 @@ def plan(
         seed=seed,
         keep_tree=keep_tree,
         cancel=cancel,
+        progress=progress,
     )
     return dataclasses.replace(result, region=region, proposal_seconds=seconds)
 

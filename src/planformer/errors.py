@@ -16,6 +16,12 @@
     ├── InvalidWeights          a weights file or card that cannot be used
     │   └── WeightsMismatch     weights that do not fit the problem or the card
     ├── TrainingDiverged        a loss that is no number; ``.step`` and ``.learning_rate`` say where
+    ├── RequestRefused          a request that the planning service does not take
+    │   ├── UnknownMap          no map has the id
+    │   ├── TooLarge            an upload, a map or a request beyond the service's limits
+    │   ├── StoreFull           no room for another map
+    │   ├── Busy                as many plans as the service may run are running
+    │   └── ShuttingDown        the service is about to end
     └── MissingExtra            an optional dependency, with its install command
 
 The problem errors mirror the exceptions of Nav2's planner server, so that a ROS wrapper can map
@@ -108,6 +114,30 @@ class TrainingDiverged(PlanformerError, ArithmeticError):
     def __init__(self, message: str, *, step: int, learning_rate: float) -> None:
         super().__init__(message)
         self.step, self.learning_rate = step, learning_rate
+
+
+class RequestRefused(PlanformerError):
+    """A request that the planning service does not take."""
+
+
+class UnknownMap(RequestRefused):
+    """The service has no map of this id."""
+
+
+class TooLarge(RequestRefused):
+    """An upload, a map or a request that is larger than the service's limits allow."""
+
+
+class StoreFull(RequestRefused):
+    """The service's folder holds as many maps as it may."""
+
+
+class Busy(RequestRefused):
+    """As many plans as the service may run are running; ask again in a second."""
+
+
+class ShuttingDown(RequestRefused):
+    """The service is about to end."""
 
 
 class MissingExtra(PlanformerError, ImportError):

@@ -31,7 +31,7 @@ from rclpy.parameter import Parameter as ParameterValue
 from planformer_ros.messages import metadata_of
 from planformer_ros.qos import LATCHED
 
-PATIENCE = 30.0
+PATIENCE = 180.0
 """Seconds after which an answer will not come any more; nothing is measured with it."""
 
 SUCCEEDED, CANCELED, ABORTED = (

@@ -16,6 +16,7 @@ from planformer.cli.generate import generate_command
 from planformer.cli.info import info_command
 from planformer.cli.map import map_command
 from planformer.cli.plan import plan_command
+from planformer.cli.serve import serve_command
 from planformer.cli.states import StateCommand
 from planformer.cli.train import train_command
 from planformer.errors import PlanformerError
@@ -68,6 +69,7 @@ def _options(
 
 app.command("plan", cls=StateCommand)(plan_command)
 app.command("map")(map_command)
+app.command("serve")(serve_command)
 app.command("info")(info_command)
 app.command("generate")(generate_command)
 app.command("train")(train_command)

@@ -5,41 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-import yaml
 
 from planformer.data.problems import draw_problems
 from planformer.data.recipe import StoredMap
 from planformer.errors import InvalidMap, InvalidParameter
-from planformer.maps.image import IMAGE_SUFFIXES
+from planformer.maps.folder import map_files
 from planformer.maps.io import LOAD_SUFFIXES, YAML_SUFFIXES, load_map
-
-
-def map_files(folder: Path) -> list[Path]:
-    """The map files in a folder and its subfolders, sorted.
-
-    Hidden files are left out, and pictures that belong to a ROS map's YAML file.
-
-    Raises:
-        InvalidParameter: The folder does not exist or holds no map.
-    """
-    found = sorted(
-        file
-        for file in folder.rglob("*")
-        if file.suffix.lower() in LOAD_SUFFIXES
-        and file.is_file()
-        and not any(part.startswith(".") for part in file.relative_to(folder).parts)
-    )
-    pictures = {_picture_of(file) for file in found if file.suffix.lower() in YAML_SUFFIXES}
-    maps = [
-        file
-        for file in found
-        if file.suffix.lower() not in IMAGE_SUFFIXES or file.resolve() not in pictures
-    ]
-    if not maps:
-        raise InvalidParameter(
-            f"{folder} holds no map; files that count: {', '.join(LOAD_SUFFIXES)}"
-        )
-    return maps
 
 
 def read_user_maps(
@@ -66,8 +37,13 @@ def read_user_maps(
         InvalidMap: A file cannot be read, or has no room for the robot's problems.
         InvalidParameter: The folder does not exist or holds no map.
     """
+    files = map_files(folder)
+    if not files:
+        raise InvalidParameter(
+            f"{folder} holds no map; files that count: {', '.join(LOAD_SUFFIXES)}"
+        )
     maps = []
-    for file in map_files(folder):
+    for file in files:
         stated = file.suffix.lower() in YAML_SUFFIXES
         grid = load_map(file, resolution=None if stated else resolution)
         try:
@@ -83,12 +59,3 @@ def read_user_maps(
             raise InvalidMap(f"{file} cannot be used: {error}") from error
         maps.append(StoredMap.of(file.relative_to(folder).as_posix(), grid))
     return maps
-
-
-def _picture_of(file: Path) -> Path | None:
-    """The picture that a ROS map's YAML file names; what is wrong with the file shows later."""
-    try:
-        named = yaml.safe_load(file.read_text(encoding="utf-8"))["image"]
-        return Path(file.parent, named).resolve()
-    except (OSError, ValueError, TypeError, KeyError, yaml.YAMLError):
-        return None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import math
 import struct
 import warnings
 import zlib
@@ -45,10 +46,22 @@ def read_picture(path: Path) -> Picture:
         InvalidMap: The file is missing, damaged, truncated, far too large or no picture.
     """
     with naming(path):
-        return _read_picture(read_bytes(path))
+        return decode_picture(read_bytes(path))
 
 
-def _read_picture(data: bytes) -> Picture:
+def decode_picture(
+    data: bytes, *, formats: tuple[str, ...] | None = None, most_pixels: float = math.inf
+) -> Picture:
+    """Decode the content of an image file.
+
+    Args:
+        data: The file's content.
+        formats: Pillow's names of the formats that may be decoded; all by default.
+        most_pixels: A larger picture is refused from its header, before it takes memory.
+
+    Raises:
+        InvalidMap: The data is damaged, truncated, no picture, or the picture too large.
+    """
     from PIL import Image
 
     try:
@@ -57,7 +70,11 @@ def _read_picture(data: bytes) -> Picture:
             warnings.filterwarnings(
                 "ignore", category=UserWarning
             )  # odd metadata of a good picture
-            with Image.open(io.BytesIO(data)) as image:
+            with Image.open(io.BytesIO(data), formats=formats) as image:
+                if image.width * image.height > most_pixels:
+                    raise ValueError(
+                        f"{image.width} x {image.height} pixels are more than {most_pixels:g}"
+                    )
                 image.load()
                 return _decode(image)
     except (Image.DecompressionBombError, Image.DecompressionBombWarning) as error:
@@ -98,11 +115,18 @@ def load_image_map(
     """
     file = Path(path)
     picture = read_picture(file)
+    with naming(file):
+        return image_map(picture, resolution, unknown_is_occupied=unknown_is_occupied)
+
+
+def image_map(
+    picture: Picture, resolution: float, *, unknown_is_occupied: bool = True
+) -> OccupancyGrid:
+    """A decoded picture as a map; see `load_image_map`."""
     occupied = 2 * picture.rgb_sum < 3 * picture.full
     unknown = np.zeros_like(occupied) if picture.alpha is None else 2 * picture.alpha < picture.full
     occupied = np.where(unknown, unknown_is_occupied, occupied)
-    with naming(file):
-        return OccupancyGrid(occupied[::-1], resolution, unknown=unknown[::-1])
+    return OccupancyGrid(occupied[::-1], resolution, unknown=unknown[::-1])
 
 
 def encode_png(grid: OccupancyGrid) -> bytes:

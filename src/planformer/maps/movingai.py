@@ -96,9 +96,14 @@ def load_movingai_map(path: PathLike, *, resolution: float = 0.05) -> OccupancyG
     """
     file = Path(path)
     with naming(file):
-        lines = [line.rstrip(b"\r") for line in read_bytes(file).split(b"\n")]
-        body, width, height = _read_header(lines)
-        return OccupancyGrid(_read_rows(lines[body:], width, height)[::-1], resolution)
+        return parse_movingai_map(read_bytes(file), resolution)
+
+
+def parse_movingai_map(data: bytes, resolution: float) -> OccupancyGrid:
+    """A map from the content of a MovingAI .map file; see `load_movingai_map`."""
+    lines = [line.rstrip(b"\r") for line in data.split(b"\n")]
+    body, width, height = _read_header(lines)
+    return OccupancyGrid(_read_rows(lines[body:], width, height)[::-1], resolution)
 
 
 def _read_header(lines: list[bytes]) -> tuple[int, int, int]:

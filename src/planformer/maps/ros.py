@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -29,7 +29,7 @@ _OCCUPIED_THRESH, _FREE_THRESH = 0.65, 0.196
 class _Metadata:
     """The checked content of a map_server YAML file."""
 
-    image: Path
+    image: str
     resolution: float
     origin: tuple[float, ...]
     negate: bool
@@ -72,17 +72,36 @@ def load_ros_map(path: PathLike, *, unknown_is_occupied: bool = True) -> Occupan
     """
     file = Path(path)
     with naming(file):
-        metadata = _parse(_read_yaml(file), file.parent)
-        picture = read_picture(metadata.image)
-        values = _VALUES[metadata.mode](picture, metadata)[::-1]
-        return OccupancyGrid.from_ros(
-            values,
-            width=values.shape[1],
-            height=values.shape[0],
-            resolution=metadata.resolution,
-            origin=metadata.origin,
+        return parse_ros_map(
+            read_bytes(file),
+            lambda image: read_picture(file.parent / image),
             unknown_is_occupied=unknown_is_occupied,
         )
+
+
+def parse_ros_map(
+    description: bytes, picture_of: Callable[[str], Picture], *, unknown_is_occupied: bool = True
+) -> OccupancyGrid:
+    """A map from the content of its YAML file; see `load_ros_map`.
+
+    Args:
+        description: Content of the YAML file.
+        picture_of: Gives the picture that the file names.
+        unknown_is_occupied: Whether unknown cells are obstacles.
+
+    Raises:
+        InvalidMap: The description is damaged or against the rules.
+    """
+    metadata = _parse(_read_yaml(description))
+    values = _VALUES[metadata.mode](picture_of(metadata.image), metadata)[::-1]
+    return OccupancyGrid.from_ros(
+        values,
+        width=values.shape[1],
+        height=values.shape[0],
+        resolution=metadata.resolution,
+        origin=metadata.origin,
+        unknown_is_occupied=unknown_is_occupied,
+    )
 
 
 def save_ros_map(grid: OccupancyGrid, path: PathLike) -> None:
@@ -122,20 +141,23 @@ def _encode_pgm(grid: OccupancyGrid) -> bytes:
     return f"P5\n{columns} {rows}\n255\n".encode() + levels[::-1].tobytes()
 
 
-def _read_yaml(file: Path) -> Mapping[Any, Any]:
+def _read_yaml(data: bytes) -> Mapping[Any, Any]:
     import yaml
 
-    data = read_bytes(file)
     try:
-        content = yaml.safe_load(data)
+        events = yaml.parse(data, yaml.SafeLoader)
+        has_aliases = any(isinstance(event, yaml.AliasEvent) for event in events)
+        content = None if has_aliases else yaml.safe_load(data)
     except (yaml.YAMLError, ValueError, RecursionError) as error:
         raise InvalidMap(f"not valid YAML: {' '.join(str(error).split())}") from error
+    if has_aliases:  # they make a small file stand for a huge value
+        raise InvalidMap("a map file has no use for YAML aliases")
     if not isinstance(content, Mapping):
         raise InvalidMap(f"a map file must be a YAML mapping; got {type(content).__name__}")
     return content
 
 
-def _parse(content: Mapping[Any, Any], folder: Path) -> _Metadata:
+def _parse(content: Mapping[Any, Any]) -> _Metadata:
     missing = [key for key in _REQUIRED if key not in content]
     if missing:
         raise InvalidMap(f"missing {', '.join(missing)}; a map needs {', '.join(_REQUIRED)}")
@@ -147,7 +169,7 @@ def _parse(content: Mapping[Any, Any], folder: Path) -> _Metadata:
     if content["negate"] not in (0, 1):  # also False and True
         raise InvalidMap(f"negate must be 0 or 1; got {content['negate']!r}")
     return _Metadata(
-        image=folder / image,
+        image=image,
         resolution=_number("resolution", content["resolution"]),
         origin=tuple(_number("origin", value) for value in origin),
         negate=bool(content["negate"]),

@@ -1,6 +1,7 @@
 """Planning: problems, OMPL's planners on them, results and their check."""
 
 from planformer.planning.problem import Problem
+from planformer.planning.progress import Progress, Snapshot
 from planformer.planning.result import PlanResult, PlanStatus, Tree
 from planformer.planning.sampling import SamplingRegion
 from planformer.planning.search import (
@@ -17,8 +18,10 @@ __all__ = [
     "PlanResult",
     "PlanStatus",
     "Problem",
+    "Progress",
     "SamplingRegion",
     "SearchLimits",
+    "Snapshot",
     "Tree",
     "is_connected",
     "path_is_valid",

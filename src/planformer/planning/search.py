@@ -15,6 +15,7 @@ from planformer import _core
 from planformer.errors import InvalidParameter, UnknownPlanner
 from planformer.geometry import Frame, wrap_angle
 from planformer.planning.problem import Problem, State
+from planformer.planning.progress import Progress
 from planformer.planning.result import PlanResult, PlanStatus, Tree
 from planformer.planning.sampling import YAW_DEVIATION, SamplingRegion
 from planformer.planning.validity import path_is_valid
@@ -76,6 +77,7 @@ def search(
     seed: int | None = None,
     keep_tree: bool = False,
     cancel: _core.Cancellation | None = None,
+    progress: Progress | None = None,
 ) -> PlanResult:
     """Plan with one of OMPL's planners.
 
@@ -89,6 +91,7 @@ def search(
             search. None draws one.
         keep_tree: Return the search tree.
         cancel: Ends the search when cancelled from another thread.
+        progress: Gets snapshots of the search.
 
     Returns:
         The result; its path has passed `path_is_valid`.
@@ -125,6 +128,7 @@ def search(
         seed=checked_seed(seed),
         keep_tree=keep_tree,
         cancellation=cancel,
+        progress=None if progress is None else progress.begin(problem),
     )
     return _to_result(answer, problem, preparation, keep_tree=keep_tree)
 

@@ -1,0 +1,39 @@
+"""The map files in a folder."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import yaml
+
+from planformer.maps.image import IMAGE_SUFFIXES
+from planformer.maps.io import LOAD_SUFFIXES, YAML_SUFFIXES
+
+
+def map_files(folder: Path) -> list[Path]:
+    """The map files in a folder and its subfolders, sorted; none where it does not exist.
+
+    Hidden files are left out, and pictures that belong to a ROS map's YAML file.
+    """
+    found = sorted(
+        file
+        for file in folder.rglob("*")
+        if file.suffix.lower() in LOAD_SUFFIXES
+        and file.is_file()
+        and not any(part.startswith(".") for part in file.relative_to(folder).parts)
+    )
+    pictures = {picture_of(file) for file in found if file.suffix.lower() in YAML_SUFFIXES}
+    return [
+        file
+        for file in found
+        if file.suffix.lower() not in IMAGE_SUFFIXES or file.resolve() not in pictures
+    ]
+
+
+def picture_of(file: Path) -> Path | None:
+    """The picture that a ROS map's YAML file names; what is wrong with the file shows later."""
+    try:
+        named = yaml.safe_load(file.read_text(encoding="utf-8"))["image"]
+        return Path(file.parent, named).resolve()
+    except (OSError, ValueError, TypeError, KeyError, yaml.YAMLError):
+        return None

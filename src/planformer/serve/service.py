@@ -1,0 +1,50 @@
+"""What the routes share: limits, maps, threads, counters."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from typing import TypeVar
+
+from planformer.maps import OccupancyGrid
+from planformer.serve.metrics import Metrics
+from planformer.serve.pool import PlanPool
+from planformer.serve.settings import ServeSettings
+from planformer.serve.store import MapStore
+
+T = TypeVar("T")
+
+_MAP_THREADS = 2
+"""Maps that are decoded, made or drawn at once; each may need hundreds of megabytes."""
+
+
+class Service:
+    """The state of one application.
+
+    Args:
+        settings: Its limits.
+    """
+
+    def __init__(self, settings: ServeSettings) -> None:
+        self.settings = settings
+        self.store = MapStore(settings)
+        self.pool = PlanPool(settings.plans, settings.patience_seconds)
+        self.metrics = Metrics(self.pool, self.store)
+        self._map_threads = ThreadPoolExecutor(_MAP_THREADS, thread_name_prefix="map")
+
+    async def in_thread(self, work: Callable[[], T]) -> T:
+        """Do work on a map while other requests go on."""
+        return await asyncio.get_running_loop().run_in_executor(self._map_threads, work)
+
+    async def grid(self, map_id: str) -> OccupancyGrid:
+        """A map's cells; it may have to be read from the folder.
+
+        Raises:
+            UnknownMap: There is none.
+        """
+        return (await self.in_thread(lambda: self.store.get(map_id))).grid
+
+    def close(self) -> None:
+        """Cancel running searches and refuse new ones."""
+        self.pool.close()

@@ -1,0 +1,104 @@
+"""The service's maps: the last used in memory, uploads in a folder if there is one."""
+
+from __future__ import annotations
+
+import threading
+from collections import OrderedDict
+
+from planformer.errors import RequestRefused, TooLarge, UnknownMap
+from planformer.serve.map_folder import MapFolder
+from planformer.serve.responses import MapInfo
+from planformer.serve.served_map import ServedMap
+from planformer.serve.settings import ServeSettings
+
+
+class MapStore:
+    """Maps by their id; safe to use from several threads.
+
+    Args:
+        settings: Bounds, and the folder.
+    """
+
+    def __init__(self, settings: ServeSettings) -> None:
+        self._settings = settings
+        self._lock = threading.Lock()
+        self._recent: OrderedDict[str, ServedMap] = OrderedDict()
+        self._folder = None if settings.folder is None else MapFolder(settings.folder, settings)
+
+    def add(self, served: ServedMap, *, keep: bool = False) -> MapInfo:
+        """Take a map in; the same content again is the same map.
+
+        Args:
+            served: The map.
+            keep: Write it to the folder, if there is one.
+
+        Raises:
+            TooLarge: It has too many cells.
+            StoreFull: The folder is full.
+        """
+        if served.grid.occupied.size > self._settings.map_cells:
+            raise TooLarge(
+                f"{served.info.columns} x {served.info.rows} cells are more than the "
+                f"{self._settings.map_cells:,} that a map may have here"
+            )
+        with self._lock:
+            if keep and self._folder is not None:
+                self._folder.save(served)
+            known = self._recent.get(served.info.id)
+            return self._remember(served if known is None or keep else known).info
+
+    def get(self, map_id: str) -> ServedMap:
+        """The map of an id.
+
+        Raises:
+            UnknownMap: There is none, or no more.
+        """
+        with self._lock:
+            served = self._recent.get(map_id)
+            if served is None and self._folder is not None:
+                served = self._folder.load(map_id)
+            if served is None:
+                raise UnknownMap(f"no map has the id {map_id}; GET /maps lists those that are here")
+            return self._remember(served)
+
+    def list(self) -> list[MapInfo]:
+        """All maps: those of the folder, then those in memory, the last used at the end."""
+        with self._lock:
+            infos = {} if self._folder is None else dict(self._folder.infos)
+            infos |= {map_id: served.info for map_id, served in self._recent.items()}
+            return list(infos.values())
+
+    def delete(self, map_id: str) -> None:
+        """Forget a map, and remove its files if the service wrote them.
+
+        Raises:
+            UnknownMap: There is none.
+            RequestRefused: The map's file is not the service's.
+        """
+        with self._lock:
+            in_folder = self._folder is not None and map_id in self._folder.infos
+            if not in_folder and map_id not in self._recent:
+                raise UnknownMap(f"no map has the id {map_id}")
+            if in_folder and self._folder is not None and not self._folder.remove(map_id):
+                raise RequestRefused("this map's file was not written here; remove it by hand")
+            self._recent.pop(map_id, None)
+
+    @property
+    def cells(self) -> int:
+        """Cells of the maps in memory."""
+        with self._lock:
+            return self._cells()
+
+    def _cells(self) -> int:
+        return sum(served.grid.occupied.size for served in self._recent.values())
+
+    def _remember(self, served: ServedMap) -> ServedMap:
+        """Make a map the last used one; the oldest give way."""
+        self._recent[served.info.id] = served
+        self._recent.move_to_end(served.info.id)
+        while (
+            len(self._recent) > self._settings.maps
+            or self._cells() > self._settings.cells_in_memory
+        ):
+            self._recent.popitem(last=False)
+        return served

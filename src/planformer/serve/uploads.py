@@ -1,0 +1,96 @@
+"""Uploaded files as maps. They come from anyone: nothing is decoded before its size is known."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import PurePosixPath, PureWindowsPath
+
+from planformer.errors import InvalidMap, InvalidParameter
+from planformer.maps import OccupancyGrid
+from planformer.maps._files import naming
+from planformer.maps.image import Picture, decode_picture, image_map
+from planformer.maps.io import DEFAULT_RESOLUTION, YAML_SUFFIXES
+from planformer.maps.movingai import parse_movingai_map
+from planformer.maps.ros import parse_ros_map
+from planformer.serve.served_map import ServedMap
+
+_FORMATS = ("BMP", "JPEG", "PNG", "PPM")  # PPM is PGM too
+_SUFFIXES = (".bmp", ".jpeg", ".jpg", ".pbm", ".pgm", ".png", ".ppm")
+_DESCRIPTION_BYTES = 2**16
+_LONGEST_NAME = 80
+
+
+def read_upload(
+    files: Mapping[str, bytes], *, resolution: float | None, map_cells: int
+) -> ServedMap:
+    """The map in uploaded files.
+
+    Args:
+        files: Content of each file by its name: a picture, a MovingAI .map, or a ROS map's YAML
+            file with its picture.
+        resolution: Side of a cell in metres for formats that do not store it.
+        map_cells: Most cells of a map.
+
+    Raises:
+        InvalidMap: The files are damaged, too large or no map.
+        InvalidParameter: A resolution is given for a map that has its own.
+    """
+    contents = {base_name(name): data for name, data in files.items()}
+    names = list(contents)
+    described = [name for name in names if _suffix(name) in YAML_SUFFIXES]
+    if len(names) == 2 and len(described) == 1:
+        if resolution is not None:
+            raise InvalidParameter("a ROS map states its own resolution; leave it out")
+        return ServedMap(_title(described[0]), _ros_map(described[0], contents, map_cells))
+    if len(names) != 1 or described:
+        raise InvalidMap(
+            "a map is one picture, one MovingAI .map file, or a ROS map's .yaml file together with "
+            f"its picture; got {', '.join(names) or 'no file'}"
+        )
+    resolution = DEFAULT_RESOLUTION if resolution is None else resolution
+    return ServedMap(_title(names[0]), _single(names[0], contents[names[0]], resolution, map_cells))
+
+
+def base_name(name: str) -> str:
+    """The last part of a file name as a browser sends it, whatever the system."""
+    return PureWindowsPath(PurePosixPath(name).name).name
+
+
+def _suffix(name: str) -> str:
+    return PurePosixPath(name).suffix.lower()
+
+
+def _title(name: str) -> str:
+    """A printable name without the suffix."""
+    title = "".join(c for c in PurePosixPath(name).stem if c.isprintable())
+    return title[:_LONGEST_NAME] or "map"
+
+
+def _single(name: str, data: bytes, resolution: float, map_cells: int) -> OccupancyGrid:
+    with naming(PurePosixPath(name)):
+        if _suffix(name) == ".map":
+            return parse_movingai_map(data, resolution)
+        return image_map(_picture(name, data, map_cells), resolution)
+
+
+def _ros_map(name: str, contents: Mapping[str, bytes], map_cells: int) -> OccupancyGrid:
+    def picture_of(image: str) -> Picture:
+        # The path is that of the uploader's disk; only its last part can name an upload.
+        picture = base_name(image)
+        if picture not in contents or picture == name:
+            raise InvalidMap(f"it names the picture {picture[:_LONGEST_NAME]!r}: upload that too")
+        return _picture(picture, contents[picture], map_cells)
+
+    with naming(PurePosixPath(name)):
+        if len(contents[name]) > _DESCRIPTION_BYTES:
+            raise InvalidMap(f"a map's YAML file has at most {_DESCRIPTION_BYTES} bytes")
+        return parse_ros_map(contents[name], picture_of)
+
+
+def _picture(name: str, data: bytes, map_cells: int) -> Picture:
+    if _suffix(name) not in _SUFFIXES:
+        raise InvalidMap(
+            f"unknown map format {_suffix(name)!r}; known: .yaml with its picture, .map, "
+            f"{', '.join(_SUFFIXES)}"
+        )
+    return decode_picture(data, formats=_FORMATS, most_pixels=map_cells)

@@ -1,0 +1,89 @@
+"""A real Uvicorn on a free port, in a thread of the test's process."""
+
+from __future__ import annotations
+
+import socket
+import threading
+from contextlib import contextmanager
+
+import httpx
+import numpy as np
+import pytest
+import uvicorn
+
+import planformer as pf
+from planformer.serve import ServeSettings, create_app
+
+
+@contextmanager
+def running(settings):
+    """The address of a server with these settings."""
+    app = create_app(settings)
+    listener = socket.create_server(("127.0.0.1", 0))
+    server = uvicorn.Server(uvicorn.Config(app, log_level="error"))
+    thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
+    thread.start()
+    try:
+        yield f"http://127.0.0.1:{listener.getsockname()[1]}"
+    finally:
+        app.state.service.close()
+        server.should_exit = True
+        thread.join()
+        listener.close()
+
+
+@pytest.fixture(scope="session")
+def server():
+    with running(ServeSettings(plans=2, plan_seconds=60.0, patience_seconds=5.0)) as url:
+        yield url
+
+
+@pytest.fixture
+def client(server):
+    with httpx.Client(base_url=server, timeout=60.0) as client:
+        yield client
+
+
+@pytest.fixture
+def make_server():
+    """Start a server with settings of its own; gives a client of it."""
+    closing = []
+
+    def make(**settings):
+        context = running(ServeSettings(**settings))
+        client = httpx.Client(base_url=context.__enter__(), timeout=60.0)
+        closing.extend((lambda: context.__exit__(None, None, None), client.close))
+        return client
+
+    yield make
+    for close in reversed(closing):
+        close()
+
+
+@pytest.fixture
+def room():
+    """3 x 2 m round the world's origin with a wall that leaves a passage at the top."""
+    occupied = np.zeros((40, 60), bool)
+    occupied[:28, 30] = True
+    return pf.OccupancyGrid(occupied, 0.05, origin=(-1.5, -1.0))
+
+
+@pytest.fixture
+def room_files(room, tmp_path):
+    """The room as the files of an upload."""
+    pf.save_map(room, tmp_path / "room.yaml")
+    return [
+        ("files", (f"room.{s}", (tmp_path / f"room.{s}").read_bytes())) for s in ("yaml", "pgm")
+    ]
+
+
+@pytest.fixture
+def room_id(client, room_files):
+    return client.post("/maps", files=room_files).json()["id"]
+
+
+@pytest.fixture
+def problem(room_id):
+    """A request to plan in the room, without a guide."""
+    ends = {"start": [-1.2, -0.6], "goal": [1.2, -0.6]}
+    return {"map": room_id, **ends, "guide": None, "time_limit": 20.0, "seed": 1}
