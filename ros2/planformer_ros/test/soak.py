@@ -235,6 +235,8 @@ def main() -> None:
     parser.add_argument("--warm-up", type=int, default=150, help="goals before those")
     parser.add_argument("--output", type=Path, help="JSON file")
     options = parser.parse_args()
+    if options.output is not None:
+        options.output.parent.mkdir(parents=True, exist_ok=True)
     busy = {"load_before": os.getloadavg()[0], "nice": os.nice(0)}
     rclpy.init()
     with tempfile.TemporaryDirectory() as folder:
