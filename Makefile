@@ -22,6 +22,7 @@ PACKAGES := $(shell find src -name '__init__.py')
 VENV_READY := $(VENV)/.stamp-venv
 PACKAGE_READY := $(VENV)/.stamp-package
 DEV_READY := $(VENV)/.stamp-dev
+include web/web.mk
 
 ## demo: plan with MPT-RRT* on a generated floor plan and draw it to demo/
 .PHONY: demo
@@ -48,6 +49,28 @@ test-core: $(DEV_READY)
 .PHONY: test-ros
 test-ros:
 	@$(MAKE) --file ros2/test.mk
+
+## playground: open the playground in a browser (PORT=8000)
+PORT ?= 8000
+.PHONY: playground
+playground: $(SERVE_READY) $(PACKAGE_READY)
+	$(BIN)/planformer serve --port $(PORT) --open
+
+## web: build the page of the playground, after a change in web/
+.PHONY: web
+web: $(NODE_READY)
+	$(NPM) run build
+
+## test-web: check the page and test it in a browser; TEST_ARGS="-g drag" runs some of it
+TEST_ARGS ?=
+.PHONY: test-web
+test-web: $(NODE_READY) $(SERVE_READY) $(PACKAGE_READY)
+	$(NPM) run check
+	$(NPM) test
+	PAGE_OUT=$(abspath build/page) $(NPM) run build
+	diff --recursive build/page $(PAGE) # a page that differs was not built: run `make web`
+	CHROMIUM="$${CHROMIUM:-$$(tools/browser.sh)}" PYTHON=$(BIN)/python \
+	    $(NPM) run test:browser -- $(TEST_ARGS)
 
 ## lint: check style, types and layers
 .PHONY: lint
