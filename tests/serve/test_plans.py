@@ -62,7 +62,7 @@ def test_a_dense_lattice_of_anchors_is_pooled(client):
 @pytest.mark.parametrize("kind", ["dubins", "reeds-shepp"])
 def test_a_car_s_path_is_valid(client, room, problem, kind):
     problem |= {"robot": {"kind": kind, "radius": 0.1, "turning_radius": 0.3}}
-    problem |= {"start": [-1.2, -0.6, 1.57], "goal": [1.2, -0.6, -1.57], "max_vertices": 2000}
+    problem |= {"start": [-1.2, -0.6, 1.57], "goal": [1.2, -0.6, -1.57], "target_length": 8.0}
     got = client.post("/plan", json=problem).json()
     robot = {"dubins": pf.DubinsCar, "reeds-shepp": pf.ReedsSheppCar}[kind](0.1, 0.3)
     assert got["solved"]
