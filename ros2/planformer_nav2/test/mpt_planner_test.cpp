@@ -83,6 +83,7 @@ TEST_F(MPTPlannerTest, PlansWithoutARegionWhereNoAnswerComes) {
     keep_requests();
     EXPECT_EQ(plan().poses.size(), 1U);
     EXPECT_EQ(seen(), std::vector<Cells>{whole_costmap()});
+    EXPECT_EQ(cells(), whole_costmap());
     EXPECT_EQ(pending_requests(), 0U);
 }
 
@@ -118,6 +119,7 @@ TEST_F(MPTPlannerTest, PlansWithoutARegionAfterAnError) {
         serve(failure(code, "no region"));
         EXPECT_EQ(plan().poses.size(), 1U);
         EXPECT_EQ(seen(), std::vector<Cells>{whole_costmap()});
+        EXPECT_EQ(cells(), whole_costmap());
         EXPECT_EQ(rclcpp::log_lines().back(),
                   "MPT plans without a region: propose_region: no region");
     }

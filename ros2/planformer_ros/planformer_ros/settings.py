@@ -11,7 +11,6 @@ from planformer.guidance import load_network
 from planformer.robots import Robot
 
 _ROBOTS = ("point", "dubins", "reeds_shepp")
-_RECOMMENDED = {"point": "mpt", "dubins": "mpt-dubins", "reeds_shepp": "mpt-dubins"}
 
 
 @dataclass(frozen=True)
@@ -86,8 +85,12 @@ class Settings:
         float, About("smallest turning radius of a car [m]", between=(0.01, 100.0))
     ] = 0.55
     planner: Annotated[
-        str, About("planner for goals that name none: a class of OMPL, or MPNet or NEXT-KS")
-    ] = "InformedRRTstar"
+        str,
+        About(
+            "planner for goals that name none: a class of OMPL, MPNet or NEXT-KS, or auto (the one "
+            "recommended for the robot)"
+        ),
+    ] = "auto"
     planner_ids: Annotated[
         tuple[str, ...],
         About(
@@ -183,7 +186,7 @@ class Settings:
     @property
     def recommended_guide(self) -> str:
         """The weights that suit the robot."""
-        return _RECOMMENDED[self.robot]
+        return pf.default_guide(self.make_robot())
 
     @property
     def optional_threshold(self) -> float | None:
@@ -214,6 +217,8 @@ class Settings:
         """
         if not name or name in self.planner_ids:
             name = self.planner
+        if name == "auto":
+            return pf.default_planner(self.make_robot(), guided=self.guide_name is not None)
         if name not in (names := pf.planner_names(self.make_robot())):
             raise pf.errors.UnknownPlanner(
                 f"unknown planner {name!r} for a robot of the kind {self.robot}; valid names: "

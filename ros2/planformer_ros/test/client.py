@@ -100,6 +100,7 @@ class Planner:
         except subprocess.TimeoutExpired:
             self.process.kill()
             raise
+        print(self.log)  # pytest shows it where a test fails
         assert status == 0, self.log
         assert "Traceback" not in self.log, self.log
 
@@ -139,19 +140,25 @@ class Client:
 
     def wait(self, future):
         """The result of a future."""
-        done = threading.Event()
-        future.add_done_callback(lambda _: done.set())
-        assert done.wait(PATIENCE), "no answer"
+        assert arrives(future, PATIENCE), "no answer"
         return future.result()
 
     def call(self, kind, name: str, request):
         """The answer of a service."""
         client = self.node.create_client(kind, name)
-        assert client.wait_for_service(PATIENCE), name
         try:
-            return self.wait(client.call_async(request))
+            return self._answer(client, request)
         finally:
             self.node.destroy_client(client)
+
+    def _answer(self, client, request):
+        """Ask, and ask again: an answer is lost if a busy server has not yet noticed its client."""
+        assert client.wait_for_service(PATIENCE), client.srv_name
+        for seconds in (10.0, 10.0, PATIENCE):
+            future = client.call_async(request)
+            if arrives(future, seconds):
+                return future.result()
+        raise AssertionError(f"no answer from {client.srv_name}")
 
     def region(self, costmap: Costmap, start, goal, guide: str = "") -> ProposeRegion.Response:
         """Ask for a region."""
@@ -164,8 +171,7 @@ class Client:
 
     def ask(self, request: ProposeRegion.Request) -> ProposeRegion.Response:
         """Send a request for a region as it is."""
-        assert self._regions.wait_for_service(PATIENCE)
-        return self.wait(self._regions.call_async(request))
+        return self._answer(self._regions, request)
 
     def send(self, goal: ComputePathToPose.Goal):
         """Send a goal; the handle says whether it was accepted."""
@@ -248,6 +254,13 @@ class Client:
         request = SetParameters.Request(parameters=[parameter])
         answer = self.call(SetParameters, "/planformer/set_parameters", request).results[0]
         return None if answer.successful else answer.reason
+
+
+def arrives(future, seconds: float) -> bool:
+    """Whether a future is done in time."""
+    done = threading.Event()
+    future.add_done_callback(lambda _: done.set())
+    return done.wait(seconds)
 
 
 def until(condition) -> None:

@@ -33,8 +33,6 @@ RADIUS = 0.2
 OBSTACLE = 12
 """Side in cells of what comes and goes."""
 GOALS_PER_CHANGE = 5
-WARM_UP = 20
-"""Goals before the memory is looked at: the first ones load what stays."""
 
 
 @dataclass
@@ -199,20 +197,23 @@ class Soak:
         return goals
 
 
-def soak(folder: Path, *, goals: int, rate: float, time_limit: float, seed: int = 0) -> Report:
+def soak(
+    folder: Path, *, goals: int, rate: float, time_limit: float, warm_up: int, seed: int = 0
+) -> Report:
     """Run a planner of its own and send it goals.
 
     Args:
         folder: For the planner's log.
-        goals: How many, after some to warm up.
+        goals: How many, after those to warm up.
         rate: Goals a second.
         time_limit: The planner's, in seconds.
+        warm_up: Goals before the memory is looked at. ROS keeps each result for ten seconds.
         seed: Seed of the map, its changes and the goals.
     """
-    settings = {"time_limit": time_limit, "guided_share": 0.6, "planner": "InformedRRTstar"}
+    settings = {"time_limit": time_limit, "guided_share": 0.6}
     with Planner(folder, autostart=True, **settings) as planner, Client() as client:
         run = Soak(client, seed)
-        run.run(WARM_UP, 1.0 / rate)
+        run.run(warm_up, 1.0 / rate)
         before = memory_mb(planner.process.pid)
         answered = run.run(goals, 1.0 / rate)
         after = memory_mb(planner.process.pid)
@@ -231,13 +232,20 @@ def main() -> None:
     parser.add_argument("--goals", type=int, default=1000)
     parser.add_argument("--rate", type=float, default=10.0, help="goals a second")
     parser.add_argument("--time-limit", type=float, default=0.06, help="of the planner [s]")
+    parser.add_argument("--warm-up", type=int, default=150, help="goals before those")
     parser.add_argument("--output", type=Path, help="JSON file")
     options = parser.parse_args()
+    if options.output is not None:
+        options.output.parent.mkdir(parents=True, exist_ok=True)
     busy = {"load_before": os.getloadavg()[0], "nice": os.nice(0)}
     rclpy.init()
     with tempfile.TemporaryDirectory() as folder:
         report = soak(
-            Path(folder), goals=options.goals, rate=options.rate, time_limit=options.time_limit
+            Path(folder),
+            goals=options.goals,
+            rate=options.rate,
+            time_limit=options.time_limit,
+            warm_up=options.warm_up,
         )
     rclpy.try_shutdown()
     busy["load_after"] = os.getloadavg()[0]

@@ -114,7 +114,7 @@ def test_parameters_that_are_refused(client, planner, name, value, reason):
 def test_parameters_change_together_or_not_at_all(client, planner):
     assert client.set_parameter("planner", "PRMstar") is None
     assert "unknown planner 'PRMstar'" in client.set_parameter("robot", "dubins")
-    assert client.set_parameter("planner", "InformedRRTstar") is None
+    assert client.set_parameter("planner", "auto") is None
     assert client.set_parameter("robot", "dubins") is None
     assert client.set_parameter("robot", "point") is None
 

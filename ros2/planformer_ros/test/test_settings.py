@@ -84,6 +84,15 @@ def test_planner_ids():
         Settings(robot="dubins", planner="PRMstar").check_names()
 
 
+def test_the_recommended_planner():
+    for robot in ("point", "dubins", "reeds_shepp"):
+        settings = Settings(robot=robot)
+        made = settings.make_robot()
+        assert settings.planner_for("GridBased") == pf.default_planner(made)
+        unguided = dataclasses.replace(settings, guide="none").planner_for("")
+        assert unguided == pf.default_planner(made, guided=False)
+
+
 def test_what_means_none():
     assert Settings().optional_threshold is None
     assert Settings(threshold=0.0).optional_threshold == 0.0
