@@ -126,8 +126,8 @@ def test_options_list_what_plan_takes(client):
     point, car = options["robots"]["point"], options["robots"]["dubins"]
     assert point["planners"] == pf.planner_names(pf.PointRobot())
     assert car["planners"] == pf.planner_names(pf.DubinsCar())
+    assert point["guides"] == ["mpt", "mpt-paper", "mpt-paper-fixed-encoding", "unet"]
     assert "mpt-dubins" in car["guides"]
-    assert "mpt-dubins" not in point["guides"]
     assert point["unguided_planners"] == ["MPNet", "NEXT-KS"]
     for robot in (point, car):
         assert robot["default_guide"] in robot["guides"]
