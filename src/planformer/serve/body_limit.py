@@ -34,7 +34,8 @@ class LimitBodies:
             message = await receive()
             received += len(message.get("body", b""))
             if received > limit:
-                await _drop(receive, (_READ_ANYWAY - 1) * limit)
+                if message.get("more_body", False):
+                    await _drop(receive, (_READ_ANYWAY - 1) * limit)
                 raise HTTPException(413, str(_error(limit)))
             return message
 

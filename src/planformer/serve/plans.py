@@ -11,6 +11,7 @@ from planformer.api import plan, planner_names
 from planformer.baselines import learned_planner_names
 from planformer.errors import InvalidParameter, UnknownGuide
 from planformer.guidance import Region, RegionProposer, guide_names, load_network, resolve_guide
+from planformer.guidance.weights import ALIASES
 from planformer.maps import OccupancyGrid
 from planformer.planning import CancelToken, PlanResult, Problem, Progress
 from planformer.planning.search import checked_seed
@@ -162,9 +163,7 @@ def _default_guide(robot: Robot) -> str:
 
 @lru_cache(maxsize=2)
 def _guides(state_dimension: int) -> list[str]:
-    """Shipped weights for a robot: those that need headings are for cars."""
+    """Short names of the weights for a robot: those that need headings are for cars."""
     return [
-        name
-        for name in guide_names()
-        if state_dimension == 3 or not load_network(name).scale.headings
+        name for name in ALIASES if state_dimension == 3 or not load_network(name).scale.headings
     ]
