@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import socket
 import threading
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 
 import httpx
 import numpy as np
@@ -16,9 +16,8 @@ from planformer.serve import ServeSettings, create_app
 
 
 @contextmanager
-def running(settings):
-    """The address of a server with these settings."""
-    app = create_app(settings)
+def running(app):
+    """The address of a server of an application."""
     listener = socket.create_server(("127.0.0.1", 0))
     server = uvicorn.Server(uvicorn.Config(app, log_level="error"))
     thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
@@ -26,7 +25,8 @@ def running(settings):
     try:
         yield f"http://127.0.0.1:{listener.getsockname()[1]}"
     finally:
-        app.state.service.close()
+        if hasattr(app.state, "service"):
+            app.state.service.close()
         server.should_exit = True
         thread.join()
         listener.close()
@@ -34,7 +34,8 @@ def running(settings):
 
 @pytest.fixture(scope="session")
 def server():
-    with running(ServeSettings(plans=2, plan_seconds=60.0, patience_seconds=5.0)) as url:
+    settings = ServeSettings(plans=2, plan_seconds=60.0, patience_seconds=5.0)
+    with running(create_app(settings)) as url:
         yield url
 
 
@@ -47,17 +48,13 @@ def client(server):
 @pytest.fixture
 def make_server():
     """Start a server with settings of its own; gives a client of it."""
-    closing = []
+    with ExitStack() as stack:
 
-    def make(**settings):
-        context = running(ServeSettings(**settings))
-        client = httpx.Client(base_url=context.__enter__(), timeout=60.0)
-        closing.extend((lambda: context.__exit__(None, None, None), client.close))
-        return client
+        def make(**settings):
+            url = stack.enter_context(running(create_app(ServeSettings(**settings))))
+            return stack.enter_context(httpx.Client(base_url=url, timeout=60.0))
 
-    yield make
-    for close in reversed(closing):
-        close()
+        yield make
 
 
 @pytest.fixture

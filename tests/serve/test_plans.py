@@ -62,7 +62,7 @@ def test_a_dense_lattice_of_anchors_is_pooled(client):
 @pytest.mark.parametrize("kind", ["dubins", "reeds-shepp"])
 def test_a_car_s_path_is_valid(client, room, problem, kind):
     problem |= {"robot": {"kind": kind, "radius": 0.1, "turning_radius": 0.3}}
-    problem |= {"start": [-1.2, -0.6, 1.57], "goal": [1.2, -0.6, -1.57], "max_vertices": 2000}
+    problem |= {"start": [-1.2, -0.6, 1.57], "goal": [1.2, -0.6, -1.57], "target_length": 8.0}
     got = client.post("/plan", json=problem).json()
     robot = {"dubins": pf.DubinsCar, "reeds-shepp": pf.ReedsSheppCar}[kind](0.1, 0.3)
     assert got["solved"]
@@ -126,8 +126,8 @@ def test_options_list_what_plan_takes(client):
     point, car = options["robots"]["point"], options["robots"]["dubins"]
     assert point["planners"] == pf.planner_names(pf.PointRobot())
     assert car["planners"] == pf.planner_names(pf.DubinsCar())
+    assert point["guides"] == ["mpt", "mpt-paper", "mpt-paper-fixed-encoding", "unet"]
     assert "mpt-dubins" in car["guides"]
-    assert "mpt-dubins" not in point["guides"]
     assert point["unguided_planners"] == ["MPNet", "NEXT-KS"]
     for robot in (point, car):
         assert robot["default_guide"] in robot["guides"]

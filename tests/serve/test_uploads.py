@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import gzip
 import io
 import struct
@@ -235,11 +236,9 @@ def test_damaged_files_give_typed_errors_or_maps(data):
     for _ in range(data.draw(st.integers(1, 6))):
         content[data.draw(st.integers(0, len(content) - 1))] = data.draw(st.integers(0, 255))
     cut = data.draw(st.integers(0, len(content)))
-    try:
+    with contextlib.suppress(PlanformerError):
         served = read({name: bytes(content[: cut or None])})
-    except PlanformerError:
-        return
-    assert served.grid.occupied.size <= CELLS
+        assert served.grid.occupied.size <= CELLS
 
 
 def test_the_library_refuses_aliases_too(tmp_path):

@@ -106,7 +106,7 @@ class _Worker(Generic[Job, Result]):
         process = _CONTEXT.Process(target=_serve, args=(remote, self._work), daemon=True)
         with interrupts_left_to_parent():
             process.start()
-        self._process = process
+            self._process = process  # before an interrupt that was held back arrives: `end` ends it
         remote.close()  # so that the pipe ends when the process does
         try:
             self._connection.recv()

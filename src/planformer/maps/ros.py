@@ -17,6 +17,8 @@ from planformer.maps._files import PathLike, naming, read_bytes
 from planformer.maps.grid import OccupancyGrid
 from planformer.maps.image import Picture, read_picture
 
+_DEEPEST = 8
+"""Collections within each other in a map file; its own are two."""
 MODES = ("trinary", "scale", "raw")
 _REQUIRED = ("image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh")
 
@@ -145,16 +147,31 @@ def _read_yaml(data: bytes) -> Mapping[Any, Any]:
     import yaml
 
     try:
-        events = yaml.parse(data, yaml.SafeLoader)
-        has_aliases = any(isinstance(event, yaml.AliasEvent) for event in events)
-        content = None if has_aliases else yaml.safe_load(data)
+        is_plain = _is_plain(data)
+        content = yaml.safe_load(data) if is_plain else None
     except (yaml.YAMLError, ValueError, RecursionError) as error:
         raise InvalidMap(f"not valid YAML: {' '.join(str(error).split())}") from error
-    if has_aliases:  # they make a small file stand for a huge value
-        raise InvalidMap("a map file has no use for YAML aliases")
+    if not is_plain:
+        raise InvalidMap("a map file has no use for YAML aliases and deep nesting")
     if not isinstance(content, Mapping):
         raise InvalidMap(f"a map file must be a YAML mapping; got {type(content).__name__}")
     return content
+
+
+def _is_plain(data: bytes) -> bool:
+    """Whether YAML has neither aliases nor deep nesting.
+
+    Aliases make a small file stand for a huge value, and time grows with the square of the depth.
+    """
+    import yaml
+
+    depth = 0
+    for event in yaml.parse(data, yaml.SafeLoader):
+        depth += isinstance(event, yaml.CollectionStartEvent)
+        depth -= isinstance(event, yaml.CollectionEndEvent)
+        if depth > _DEEPEST or isinstance(event, yaml.AliasEvent):
+            return False
+    return True
 
 
 def _parse(content: Mapping[Any, Any]) -> _Metadata:

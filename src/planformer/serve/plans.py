@@ -19,6 +19,7 @@ from planformer.guidance import (
     load_network,
     resolve_guide,
 )
+from planformer.guidance.weights import ALIASES
 from planformer.maps import OccupancyGrid
 from planformer.planning import CancelToken, PlanResult, Problem, Progress
 from planformer.planning.search import checked_seed
@@ -168,9 +169,7 @@ def _guide(name: str, robot: Robot) -> str:
 
 @lru_cache(maxsize=2)
 def _guides(state_dimension: int) -> list[str]:
-    """Shipped weights for a robot: those that need headings are for cars."""
+    """Short names of the weights for a robot: those that need headings are for cars."""
     return [
-        name
-        for name in guide_names()
-        if state_dimension == 3 or not load_network(name).scale.headings
+        name for name in ALIASES if state_dimension == 3 or not load_network(name).scale.headings
     ]
