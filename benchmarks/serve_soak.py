@@ -30,7 +30,7 @@ CAR = {
     "start": [2.0, 2.0, 0.8],
     "goal": [22.0, 22.0, 0.8],
 }
-KINDS = {"plan": 60, "car": 8, "stream": 10, "compare": 2, "propose": 8, "image": 6, "edit": 4}
+KINDS = {"plan": 56, "car": 8, "stream": 10, "compare": 2, "propose": 8, "image": 6, "edit": 8}
 KINDS |= {"generate": 2}
 PLANNERS = ("RRTstar", "InformedRRTstar", "BITstar", "RRTConnect")
 
