@@ -19,6 +19,7 @@ const URL = `http://127.0.0.1:${PORT}/`;
 const DRAG_SECONDS = 5;
 const MOUSE_HERTZ = 60;
 const ROUNDS = 5;
+const TREE_EDGES = 50_000;
 
 const PROBLEMS = {
   indoor: "",
@@ -73,6 +74,76 @@ async function dragFrames(page: Page): Promise<number> {
   return rate;
 }
 
+/** A plan whose tree has so many edges, each to a vertex near its parent. */
+function largePlan(edges: number): string {
+  const vertices = [12, 12];
+  const parents = [-1];
+  for (let i = 1; i <= edges; i++) {
+    const parent = Math.floor((((i * 2654435761) % 2 ** 32) / 2 ** 32) * i);
+    const clamp = (value: number) => Math.min(Math.max(value, 0.5), 23.5);
+    vertices.push(
+      clamp(vertices[2 * parent]! + Math.cos(i)),
+      clamp(vertices[2 * parent + 1]! + Math.sin(i)),
+    );
+    parents.push(parent);
+  }
+  const result = {
+    solved: false,
+    status: "time limit",
+    path: [],
+    length: null,
+    vertices: edges + 1,
+    planning_seconds: 1,
+    proposal_seconds: 0,
+    total_seconds: 1,
+    planner: "RRTstar",
+    guide: null,
+    seed: 1,
+    region: null,
+    tree: { vertices, parents, links: [] },
+  };
+  return `event: result\ndata: ${JSON.stringify(result)}\n\n`;
+}
+
+/** Frames a second while a map with a large tree is moved, and the longest of them in ms. */
+async function panFrames(browser: Browser): Promise<{ per_second: number; longest_ms: number }> {
+  const page = await browser.newPage({ viewport: { width: 1280, height: 900 } });
+  await page.route("**/plan/stream", (route) =>
+    route.fulfill({ contentType: "text/event-stream", body: largePlan(TREE_EDGES) }),
+  );
+  await page.goto(URL);
+  await page.locator("[data-figure=status]", { hasText: "(" }).waitFor();
+  await page.waitForTimeout(1000);
+  const box = (await page.locator(".view canvas").boundingBox())!;
+  const [x, y] = [box.x + box.width / 4, box.y + box.height / 2];
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.evaluate(() => {
+    const times: number[] = [];
+    const tick = (time: number) => {
+      times.push(time);
+      requestAnimationFrame(tick);
+    };
+    requestAnimationFrame(tick);
+    Object.assign(window, { times });
+  });
+  const moves: Promise<void>[] = [];
+  const begun = performance.now();
+  while (performance.now() - begun < 1000 * DRAG_SECONDS) {
+    const angle = (performance.now() - begun) / 300;
+    moves.push(page.mouse.move(x + 60 * Math.cos(angle), y + 60 * Math.sin(angle)));
+    await new Promise((resolve) => setTimeout(resolve, 1000 / MOUSE_HERTZ));
+  }
+  await Promise.all(moves);
+  const times = await page.evaluate(() => (window as never as { times: number[] }).times);
+  await page.close();
+  const gaps = times.slice(1).map((time, index) => time - times[index]!);
+  return {
+    per_second: Number((1000 / (gaps.reduce((sum, gap) => sum + gap, 0) / gaps.length)).toFixed(1)),
+    longest_ms: Number(Math.max(...gaps).toFixed(0)),
+  };
+}
+
 /** Milliseconds until the first paint with content, and kilobytes that came over the line. */
 async function load(browser: Browser): Promise<{ paint: number; kilobytes: number }> {
   const page = await browser.newPage({ viewport: { width: 1280, height: 900 } });
@@ -105,6 +176,7 @@ async function measure(browser: Browser) {
     first_paint_ms: Number(median(loads.map(({ paint }) => paint)).toFixed(0)),
     page_weight_kb: Number(median(loads.map(({ kilobytes }) => kilobytes)).toFixed(1)),
     drag_frames_per_second: frames,
+    pan_frames_with_50000_edges: await panFrames(browser),
   };
 }
 
