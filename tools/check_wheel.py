@@ -23,6 +23,8 @@ def main() -> None:
     foreign = [path for path in loaded_libraries("libompl") if packages not in path.parents]
     if foreign:
         sys.exit(f"OMPL comes from outside of the wheel: {foreign}")
+    if not (Path(pf.__file__).parent / "serve" / "page" / "index.html").is_file():
+        sys.exit("the page of the planning service is missing")
     print(f"{Path(pf.__file__).parent}: a path of {result.length:.2f} m; OMPL is the wheel's own")
 
 

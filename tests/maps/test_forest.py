@@ -79,6 +79,12 @@ def test_bad_settings(setting):
         generate_forest(0, **setting)
 
 
+@pytest.mark.parametrize("side", [1e6, 1e200, 1e308])
+def test_a_forest_of_too_many_obstacles_is_refused(side):
+    with pytest.raises(InvalidParameter, match="too many"):
+        generate_forest(0, width=side, height=side, resolution=side / 2)
+
+
 @pytest.mark.parametrize("seed", [-1, 1.5, "a", None])
 def test_bad_seeds(seed):
     with pytest.raises(InvalidParameter, match="seed"):

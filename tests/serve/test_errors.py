@@ -58,6 +58,8 @@ def test_a_bad_problem_is_a_typed_error(client, problem, change, error):
         {"max_vertices": 0},
         {"seed": 2**32},
         {"speed": 1.0},
+        {"time_limit": "1"},
+        {"exploration": True},
     ],
 )
 def test_a_malformed_request_names_the_field(client, problem, change):

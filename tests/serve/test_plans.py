@@ -40,7 +40,7 @@ def test_the_region_is_the_library_s(client, room, problem):
     assert (region["rows"], region["columns"]) == wanted.probability.shape
     assert np.allclose(region["probability"], wanted.probability.ravel(), atol=0.0006)
     assert np.allclose(region["anchors"], wanted.anchors.reshape(-1, 2), atol=0.0006)
-    mask = np.asarray(Image.open(io.BytesIO(base64.b64decode(region["mask"]))))
+    mask = np.asarray(Image.open(io.BytesIO(base64.b64decode(region["mask"]))).convert("L"))
     assert np.array_equal(mask[::-1] == 255, wanted.mask)
     asked = {key: problem[key] for key in ("map", "start", "goal")}
     proposed = client.post("/propose", json=asked).json()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import os
 from collections.abc import Iterator
-from pathlib import Path, PurePath
+from pathlib import Path
 
 from planformer.errors import InvalidMap
 
@@ -26,7 +26,7 @@ def read_bytes(path: Path) -> bytes:
 
 
 @contextlib.contextmanager
-def naming(path: PurePath) -> Iterator[None]:
+def naming(path: Path) -> Iterator[None]:
     """Put the file's name before the reason of any `InvalidMap` raised inside."""
     try:
         yield

@@ -9,6 +9,7 @@ import numpy as np
 from planformer.errors import InvalidParameter
 from planformer.maps._drawing import fill_box, fill_disc
 from planformer.maps._generation import (
+    MAX_CELLS,
     Seed,
     grid_shape,
     random_generator,
@@ -76,6 +77,8 @@ def generate_forest(
 
 def _count(name: str, given: int | None, default: float) -> int:
     if given is None:
+        if default > MAX_CELLS:
+            raise InvalidParameter(f"a forest of this size has {default:.3g} {name}: too many")
         return round(default)
     if given < 0:
         raise InvalidParameter(f"{name} must be >= 0; got {given}")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
+from typing import get_args
 
 from fastapi import FastAPI
 from fastapi.responses import Response
@@ -95,7 +96,7 @@ def _service_routes(app: FastAPI, service: Service) -> None:
         return Options(
             version=planformer.__version__,
             robots=await service.in_thread(robot_options),
-            map_kinds=[kind.value for kind in MapKind],
+            map_kinds=list(get_args(MapKind)),
             limits=Limits(
                 upload_bytes=settings.upload_bytes,
                 map_cells=settings.map_cells,

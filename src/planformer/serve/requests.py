@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from enum import Enum
 from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, FiniteFloat
@@ -10,6 +9,7 @@ from pydantic import BaseModel, ConfigDict, Field, FiniteFloat
 from planformer.guidance import AUTO
 from planformer.robots import DubinsCar, PointRobot, ReedsSheppCar, Robot
 
+MapKind = Literal["forest", "maze", "indoor"]
 Radius = Annotated[FiniteFloat, Field(ge=0.0, le=100.0, description="Radius of the robot [m].")]
 TurningRadius = Annotated[
     FiniteFloat, Field(gt=0.0, le=1000.0, description="Radius of the tightest circle [m].")
@@ -39,9 +39,9 @@ Threshold = Annotated[
 
 
 class Request(BaseModel):
-    """A request body; an unknown key is an error."""
+    """A request body; an unknown key is an error, and so is a word where a number belongs."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
 
 class Disc(Request):
@@ -138,12 +138,7 @@ class ProposeRequest(Ends):
     threshold: Threshold = None
 
 
-class MapKind(str, Enum):
-    """Generators of maps."""
-
-    FOREST = "forest"
-    MAZE = "maze"
-    INDOOR = "indoor"
+Side = Annotated[FiniteFloat, Field(gt=0.0, le=500.0)]  # a forest has trees whatever its cells
 
 
 class GenerateRequest(Request):
@@ -151,9 +146,11 @@ class GenerateRequest(Request):
 
     kind: MapKind
     seed: Annotated[int, Field(ge=0, lt=2**63)] = 0
-    width: Annotated[FiniteFloat, Field(gt=0.0, description="Extent along x [m].")] = 24.0
-    height: Annotated[FiniteFloat, Field(gt=0.0, description="Extent along y [m].")] = 24.0
-    resolution: Annotated[FiniteFloat, Field(gt=0.0, description="Side of a cell [m].")] = 0.05
+    width: Annotated[Side, Field(description="Extent along x [m].")] = 24.0
+    height: Annotated[Side, Field(description="Extent along y [m].")] = 24.0
+    resolution: Annotated[FiniteFloat, Field(gt=0.0, le=0.5, description="Side of a cell [m].")] = (
+        0.05
+    )
 
 
 class Stroke(Request):

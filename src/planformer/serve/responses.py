@@ -74,9 +74,7 @@ class RegionResponse(Response):
     anchor_size: Annotated[float, Field(description="Distance of neighbouring anchors [m].")]
     mask: Annotated[
         str,
-        Field(
-            description="Base64 of a PNG laid out as the map's image: 255 inside the region, else 0"
-        ),
+        Field(description="Base64 of a PNG laid out as the map's image, white inside the region."),
     ]
     threshold: Annotated[float, Field(description="Anchors as probable make up the region.")]
     connected: Annotated[

@@ -43,7 +43,10 @@ class Service:
         Raises:
             UnknownMap: There is none.
         """
-        return (await self.in_thread(lambda: self.store.get(map_id))).grid
+        served = self.store.recent(map_id)
+        if served is None:
+            served = await self.in_thread(lambda: self.store.get(map_id))
+        return served.grid
 
     def close(self) -> None:
         """Cancel running searches and refuse new ones."""

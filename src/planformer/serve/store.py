@@ -21,7 +21,8 @@ class MapStore:
 
     def __init__(self, settings: ServeSettings) -> None:
         self._settings = settings
-        self._lock = threading.Lock()
+        self._lock = threading.Lock()  # of what is in memory; never held for long
+        self._folder_lock = threading.Lock()
         self._recent: OrderedDict[str, ServedMap] = OrderedDict()
         self._folder = None if settings.folder is None else MapFolder(settings.folder, settings)
 
@@ -41,11 +42,19 @@ class MapStore:
                 f"{served.info.columns} x {served.info.rows} cells are more than the "
                 f"{self._settings.map_cells:,} that a map may have here"
             )
-        with self._lock:
-            if keep and self._folder is not None:
+        if keep and self._folder is not None:
+            with self._folder_lock:
                 self._folder.save(served)
-            known = self._recent.get(served.info.id)
-            return self._remember(served if known is None or keep else known).info
+        known = None if keep else self.recent(served.info.id)
+        return self._remember(served).info if known is None else known.info
+
+    def recent(self, map_id: str) -> ServedMap | None:
+        """The map of an id if it is in memory; does not wait for files."""
+        with self._lock:
+            if map_id not in self._recent:
+                return None
+            self._recent.move_to_end(map_id)
+            return self._recent[map_id]
 
     def get(self, map_id: str) -> ServedMap:
         """The map of an id.
@@ -53,18 +62,20 @@ class MapStore:
         Raises:
             UnknownMap: There is none, or no more.
         """
-        with self._lock:
-            served = self._recent.get(map_id)
-            if served is None and self._folder is not None:
+        served = self.recent(map_id)
+        if served is not None:
+            return served
+        if self._folder is not None:
+            with self._folder_lock:
                 served = self._folder.load(map_id)
-            if served is None:
-                raise UnknownMap(f"no map has the id {map_id}; GET /maps lists those that are here")
-            return self._remember(served)
+        if served is None:
+            raise UnknownMap(f"no map has the id {map_id}; GET /maps lists those that are here")
+        return self._remember(served)
 
     def list(self) -> list[MapInfo]:
         """All maps: those of the folder, then those in memory, the last used at the end."""
+        infos = {} if self._folder is None else self._folder.infos.copy()
         with self._lock:
-            infos = {} if self._folder is None else dict(self._folder.infos)
             infos |= {map_id: served.info for map_id, served in self._recent.items()}
             return list(infos.values())
 
@@ -75,13 +86,16 @@ class MapStore:
             UnknownMap: There is none.
             RequestRefused: The map's file is not the service's.
         """
+        in_folder = False
+        if self._folder is not None:
+            with self._folder_lock:
+                in_folder = map_id in self._folder.infos
+                if in_folder and not self._folder.remove(map_id):
+                    raise RequestRefused("this map's file was not written here; remove it by hand")
         with self._lock:
-            in_folder = self._folder is not None and map_id in self._folder.infos
-            if not in_folder and map_id not in self._recent:
-                raise UnknownMap(f"no map has the id {map_id}")
-            if in_folder and self._folder is not None and not self._folder.remove(map_id):
-                raise RequestRefused("this map's file was not written here; remove it by hand")
-            self._recent.pop(map_id, None)
+            in_memory = self._recent.pop(map_id, None) is not None
+        if not (in_folder or in_memory):
+            raise UnknownMap(f"no map has the id {map_id}")
 
     @property
     def cells(self) -> int:
@@ -94,11 +108,13 @@ class MapStore:
 
     def _remember(self, served: ServedMap) -> ServedMap:
         """Make a map the last used one; the oldest give way."""
-        self._recent[served.info.id] = served
-        self._recent.move_to_end(served.info.id)
-        while (
-            len(self._recent) > self._settings.maps
-            or self._cells() > self._settings.cells_in_memory
-        ):
-            self._recent.popitem(last=False)
+        info = served.info  # made before the lock is taken: it looks at every cell
+        with self._lock:
+            self._recent[info.id] = served
+            self._recent.move_to_end(info.id)
+            while (
+                len(self._recent) > self._settings.maps
+                or self._cells() > self._settings.cells_in_memory
+            ):
+                self._recent.popitem(last=False)
         return served

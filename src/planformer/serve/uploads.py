@@ -7,7 +7,6 @@ from pathlib import PurePosixPath, PureWindowsPath
 
 from planformer.errors import InvalidMap, InvalidParameter
 from planformer.maps import OccupancyGrid
-from planformer.maps._files import naming
 from planformer.maps.image import Picture, decode_picture, image_map
 from planformer.maps.io import DEFAULT_RESOLUTION, YAML_SUFFIXES
 from planformer.maps.movingai import parse_movingai_map
@@ -36,19 +35,25 @@ def read_upload(
         InvalidParameter: A resolution is given for a map that has its own.
     """
     contents = {base_name(name): data for name, data in files.items()}
-    names = list(contents)
-    described = [name for name in names if _suffix(name) in YAML_SUFFIXES]
-    if len(names) == 2 and len(described) == 1:
+    described = [name for name in contents if _suffix(name) in YAML_SUFFIXES]
+    if len(contents) == 2 and len(described) == 1:
         if resolution is not None:
             raise InvalidParameter("a ROS map states its own resolution; leave it out")
-        return ServedMap(_title(described[0]), _ros_map(described[0], contents, map_cells))
-    if len(names) != 1 or described:
+        name = described[0]
+    elif len(contents) == 1 and not described:
+        (name,) = contents
+    else:
         raise InvalidMap(
             "a map is one picture, one MovingAI .map file, or a ROS map's .yaml file together with "
-            f"its picture; got {', '.join(names) or 'no file'}"
+            f"its picture; got {', '.join(contents)[:_LONGEST_NAME] or 'no file'}"
         )
-    resolution = DEFAULT_RESOLUTION if resolution is None else resolution
-    return ServedMap(_title(names[0]), _single(names[0], contents[names[0]], resolution, map_cells))
+    try:
+        if described:
+            return ServedMap(_title(name), _ros_map(name, contents, map_cells))
+        resolution = DEFAULT_RESOLUTION if resolution is None else resolution
+        return ServedMap(_title(name), _single(name, contents[name], resolution, map_cells))
+    except InvalidMap as error:
+        raise InvalidMap(f"{name[-_LONGEST_NAME:]}: {error}") from error
 
 
 def base_name(name: str) -> str:
@@ -67,10 +72,9 @@ def _title(name: str) -> str:
 
 
 def _single(name: str, data: bytes, resolution: float, map_cells: int) -> OccupancyGrid:
-    with naming(PurePosixPath(name)):
-        if _suffix(name) == ".map":
-            return parse_movingai_map(data, resolution)
-        return image_map(_picture(name, data, map_cells), resolution)
+    if _suffix(name) == ".map":
+        return parse_movingai_map(data, resolution)
+    return image_map(_picture(name, data, map_cells), resolution)
 
 
 def _ros_map(name: str, contents: Mapping[str, bytes], map_cells: int) -> OccupancyGrid:
@@ -81,10 +85,9 @@ def _ros_map(name: str, contents: Mapping[str, bytes], map_cells: int) -> Occupa
             raise InvalidMap(f"it names the picture {picture[:_LONGEST_NAME]!r}: upload that too")
         return _picture(picture, contents[picture], map_cells)
 
-    with naming(PurePosixPath(name)):
-        if len(contents[name]) > _DESCRIPTION_BYTES:
-            raise InvalidMap(f"a map's YAML file has at most {_DESCRIPTION_BYTES} bytes")
-        return parse_ros_map(contents[name], picture_of)
+    if len(contents[name]) > _DESCRIPTION_BYTES:
+        raise InvalidMap(f"a map's YAML file has at most {_DESCRIPTION_BYTES} bytes")
+    return parse_ros_map(contents[name], picture_of)
 
 
 def _picture(name: str, data: bytes, map_cells: int) -> Picture:
