@@ -82,7 +82,7 @@ test("maps are generated from a kind and a seed", async ({ page }) => {
   await page.getByRole("button", { name: "Maze" }).click();
   await expect(page.locator("#facts")).toContainText("maze 3");
   await playground.planned();
-  expect(page.url()).toContain("map=maze,3,24,24");
+  await expect(page).toHaveURL(/map=maze,3,24,24/);
 });
 
 test("maps of the server can be opened again", async ({ page }) => {
