@@ -5,20 +5,11 @@ import os
 import subprocess
 import sys
 
-import numpy as np
 import pytest
 from typer.testing import CliRunner
 
 import planformer as pf
 from planformer.cli.app import app
-
-
-@pytest.fixture
-def room():
-    """3 x 2 m round the world's origin with a wall that leaves a passage at the top."""
-    occupied = np.zeros((40, 60), bool)
-    occupied[:28, 30] = True
-    return pf.OccupancyGrid(occupied, 0.05, origin=(-1.5, -1.0))
 
 
 @pytest.fixture

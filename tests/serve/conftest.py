@@ -7,7 +7,6 @@ import threading
 from contextlib import ExitStack, contextmanager
 
 import httpx
-import numpy as np
 import pytest
 import uvicorn
 
@@ -55,14 +54,6 @@ def make_server():
             return stack.enter_context(httpx.Client(base_url=url, timeout=60.0))
 
         yield make
-
-
-@pytest.fixture
-def room():
-    """3 x 2 m round the world's origin with a wall that leaves a passage at the top."""
-    occupied = np.zeros((40, 60), bool)
-    occupied[:28, 30] = True
-    return pf.OccupancyGrid(occupied, 0.05, origin=(-1.5, -1.0))
 
 
 @pytest.fixture

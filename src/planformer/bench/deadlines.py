@@ -14,7 +14,7 @@ from planformer.bench.environment import environment
 from planformer.bench.problems import BenchProblem, make_problem
 from planformer.bench.reporting import markdown_table, session_line, write_summary
 from planformer.bench.rows import chosen_rows
-from planformer.errors import InvalidParameter
+from planformer.bench.running import in_rows
 from planformer.guidance import AUTO, resolve_guide
 from planformer.planning import SearchLimits, search
 
@@ -54,17 +54,12 @@ def run_deadlines(
     Raises:
         InvalidParameter: A value is out of range.
     """
-    if problems < 1:
-        raise InvalidParameter(f"problems must be >= 1; got {problems}")
     lines = []
-    for number, row in enumerate(chosen_rows(ROWS, None)):
+    for row, indices in in_rows(chosen_rows(ROWS, None), problems, report):
         overruns: dict[tuple[str, float], list[float]] = {}
-        for index in range(problems):
-            of_row = make_problem(row, index, seed)
-            for key, seconds in _measure(of_row).items():
+        for index in indices:
+            for key, seconds in _measure(make_problem(row, index, seed)).items():
                 overruns.setdefault(key, []).append(seconds)
-            if report:
-                report(number * problems + index + 1, len(ROWS) * problems)
         lines += [_line(row.name, *key, np.array(values)) for key, values in overruns.items()]
     summary = {"sessions": [environment()], "lines": lines}
     write_summary(folder, summary, markdown(summary))

@@ -18,10 +18,10 @@ from planformer.bench.reporting import (
     write_summary,
 )
 from planformer.bench.rows import Row, chosen_rows
+from planformer.bench.running import in_rows
 from planformer.bench.statistics import interval_of, median_of, percentile_90
 from planformer.data.problems import random_problems
 from planformer.encoding import encode_windows, network_map
-from planformer.errors import InvalidParameter
 from planformer.guidance import OnnxProposer, load_network, make_region
 from planformer.guidance.onnx import OnnxNetwork
 from planformer.maps import OccupancyGrid
@@ -63,16 +63,10 @@ def run_latency(
     Raises:
         InvalidParameter: A value is out of range.
     """
-    if problems < 1:
-        raise InvalidParameter(f"problems must be >= 1; got {problems}")
     lines = []
-    for number, row in enumerate(chosen_rows(ROWS, None)):
+    for row, indices in in_rows(chosen_rows(ROWS, None), problems, report):
         network = load_network("mpt" if row.plane else "mpt-dubins")
-        times = []
-        for index in range(problems):
-            times.append(_measure(_problem(row, index, seed), network))
-            if report:
-                report(number * problems + index + 1, len(ROWS) * problems)
+        times = [_measure(_problem(row, index, seed), network) for index in indices]
         lines.append(_line(row, network, times))
     summary = {"sessions": [environment()], "lines": lines}
     write_summary(folder, summary, markdown(summary))

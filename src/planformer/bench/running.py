@@ -2,20 +2,46 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import closing
 
 from planformer.bench.environment import environment
 from planformer.bench.rows import Row
 from planformer.bench.store import Record, ResultFolder, parts
 from planformer.bench.workers import Died, work_through
-from planformer.errors import PlanformerError
+from planformer.errors import InvalidParameter, PlanformerError
 
 Job = tuple[Row, int]
 """A row and the number of a problem in it."""
 Progress = Callable[[int, int], None]
 FAILURES = (PlanformerError, RuntimeError, ValueError, ArithmeticError, MemoryError)
 """What a guide or a planner may raise; a TypeError, say, is a mistake in the program instead."""
+
+
+def in_rows(
+    rows: Sequence[Row], problems: int, report: Progress | None
+) -> Iterator[tuple[Row, Iterator[int]]]:
+    """Each row with the numbers of its problems; a problem counts as measured at the next.
+
+    Args:
+        rows: The rows.
+        problems: Number of problems in each.
+        report: Called with the number of problems measured and their total.
+
+    Raises:
+        InvalidParameter: There are no problems.
+    """
+    if problems < 1:
+        raise InvalidParameter(f"problems must be >= 1; got {problems}")
+
+    def numbers(before: int) -> Iterator[int]:
+        for index in range(problems):
+            yield index
+            if report:
+                report(before + index + 1, len(rows) * problems)
+
+    for number, row in enumerate(rows):
+        yield row, numbers(number * problems)
 
 
 def complete(

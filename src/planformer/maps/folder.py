@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import yaml
-
+from planformer.errors import InvalidMap
+from planformer.maps._files import read_bytes
 from planformer.maps.image import IMAGE_SUFFIXES
 from planformer.maps.io import LOAD_SUFFIXES, YAML_SUFFIXES
+from planformer.maps.ros import read_description
 
 
 def map_files(folder: Path) -> list[Path]:
@@ -33,7 +34,7 @@ def map_files(folder: Path) -> list[Path]:
 def picture_of(file: Path) -> Path | None:
     """The picture that a ROS map's YAML file names; what is wrong with the file shows later."""
     try:
-        named = yaml.safe_load(file.read_text(encoding="utf-8"))["image"]
+        named = read_description(read_bytes(file))["image"]
         return Path(file.parent, named).resolve()
-    except (OSError, ValueError, TypeError, KeyError, yaml.YAMLError):
+    except (InvalidMap, OSError, ValueError, TypeError, KeyError):
         return None

@@ -94,7 +94,7 @@ def parse_ros_map(
     Raises:
         InvalidMap: The description is damaged or against the rules.
     """
-    metadata = _parse(_read_yaml(description))
+    metadata = _parse(read_description(description))
     values = _VALUES[metadata.mode](picture_of(metadata.image), metadata)[::-1]
     return OccupancyGrid.from_ros(
         values,
@@ -143,7 +143,12 @@ def _encode_pgm(grid: OccupancyGrid) -> bytes:
     return f"P5\n{columns} {rows}\n255\n".encode() + levels[::-1].tobytes()
 
 
-def _read_yaml(data: bytes) -> Mapping[Any, Any]:
+def read_description(data: bytes) -> Mapping[Any, Any]:
+    """The content of a map's YAML file, of which only the syntax has been checked.
+
+    Raises:
+        InvalidMap: It is no plain YAML mapping.
+    """
     import yaml
 
     try:

@@ -71,10 +71,7 @@ class Progress:
         if found is None:
             return None
         dimension, frame = problem.robot.state_dimension, problem.grid.frame
-        tree = None
-        if self._keep_tree:
-            vertices = frame.to_world(found.tree_vertices)[:, :dimension]
-            tree = Tree(vertices, found.tree_edges.astype(np.int64))
+        tree = Tree.from_core(found, problem) if self._keep_tree else None
         return Snapshot(
             seconds=found.seconds,
             length=found.length,

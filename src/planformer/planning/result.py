@@ -9,6 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from planformer import _core
+from planformer.planning.problem import Problem
+
 
 class PlanStatus(str, Enum):
     """Why a search ended. Whether it found a path is `PlanResult.solved`."""
@@ -37,6 +40,12 @@ class Tree:
 
     vertices: NDArray[np.float64]
     edges: NDArray[np.int64]
+
+    @classmethod
+    def from_core(cls, found: _core.Answer | _core.Snapshot, problem: Problem) -> Tree:
+        """The tree that the core found for a problem."""
+        vertices = problem.grid.frame.to_world(found.tree_vertices)
+        return cls(vertices[:, : problem.robot.state_dimension], found.tree_edges.astype(np.int64))
 
 
 @dataclass(frozen=True)

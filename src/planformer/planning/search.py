@@ -204,10 +204,7 @@ def _to_result(
     answer: _core.Answer, problem: Problem, preparation: float, *, keep_tree: bool
 ) -> PlanResult:
     dimension, frame = problem.robot.state_dimension, problem.grid.frame
-    tree = None
-    if keep_tree:
-        vertices = frame.to_world(answer.tree_vertices)[:, :dimension]
-        tree = Tree(vertices, answer.tree_edges.astype(np.int64))
+    tree = Tree.from_core(answer, problem) if keep_tree else None
     checking = time.perf_counter()
     path = frame.to_world(answer.path)[:, :dimension]
     status = _STATUS[answer.outcome]
