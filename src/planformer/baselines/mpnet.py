@@ -133,6 +133,7 @@ class _Query:
         except _Stop as stop:
             status = stop.status
         return PlanResult(
+            problem=self.problem,
             solved=len(self.best) > 0,
             status=status,
             path=self.best,

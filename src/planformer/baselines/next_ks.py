@@ -145,6 +145,7 @@ class _Query:
             path, status = path[:0], PlanStatus.INVALID_PATH
         seconds = time.perf_counter() - self.started
         return PlanResult(
+            problem=problem,
             solved=len(path) > 0,
             status=status,
             path=path,

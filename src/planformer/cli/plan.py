@@ -149,11 +149,7 @@ def plan_command(
         )
     done = PlanReport(
         map_file=map_file,
-        grid=grid,
-        robot=body,
         robot_kind=robot.value,
-        start=ends[0],
-        goal=ends[1],
         planner=planner,
         guide=weights,
         seed=seed,

@@ -15,11 +15,9 @@ import planformer
 from planformer.cli.console import print_facts, to_json
 from planformer.errors import InvalidParameter
 from planformer.files import write_files
-from planformer.maps import OccupancyGrid
 from planformer.planning import PlanResult
-from planformer.plotting import plot_result, save_picture
+from planformer.plotting import save_picture
 from planformer.plotting.words import duration, outcome
-from planformer.robots import Robot
 
 CSV, JSON, PICTURE = "path.csv", "path.json", "picture.png"
 VERSION = 1
@@ -53,11 +51,7 @@ class PlanReport:
 
     Attributes:
         map_file: The map's file.
-        grid: The map.
-        robot: The robot.
         robot_kind: Its name on the command line.
-        start: (x, y) or (x, y, yaw) in metres and rad.
-        goal: As the start.
         planner: OMPL class name.
         guide: Name or path of the weights, None without a guide.
         seed: Seed of the search.
@@ -67,11 +61,7 @@ class PlanReport:
     """
 
     map_file: Path
-    grid: OccupancyGrid
-    robot: Robot
     robot_kind: str
-    start: tuple[float, ...]
-    goal: tuple[float, ...]
     planner: str
     guide: str | None
     seed: int
@@ -106,22 +96,20 @@ class PlanReport:
         record = to_json(self.record()).encode()
         write_files({files["path"]: self.csv().encode(), files["record"]: record})
         if self.picture:
-            figure = plot_result(
-                self.grid, self.robot, self.start, self.goal, self.result, title=self.title
-            )
-            save_picture(figure, files["picture"])
+            save_picture(self.result.plot(title=self.title), files["picture"])
 
     def csv(self) -> str:
         """The path, one state a line under a header; the header alone without a path."""
         text = io.StringIO()
         writer = csv.writer(text, lineterminator="\n")
-        writer.writerow(("x", "y", "yaw")[: self.robot.state_dimension])
+        writer.writerow(("x", "y", "yaw")[: self.result.problem.robot.state_dimension])
         writer.writerows(self.result.path.tolist())
         return text.getvalue()
 
     def record(self) -> dict[str, Any]:
         """The whole result as JSON-compatible values; metres, rad and seconds."""
         result, region = self.result, self.result.region
+        problem = result.problem
         return {
             "version": VERSION,
             "planformer": planformer.__version__,
@@ -134,14 +122,14 @@ class PlanReport:
             "planner": self.planner,
             "guide": self.guide,
             "seed": self.seed,
-            "start": self.start,
-            "goal": self.goal,
-            "robot": {"kind": self.robot_kind, **asdict(self.robot)},
+            "start": problem.start,
+            "goal": problem.goal,
+            "robot": {"kind": self.robot_kind, **asdict(problem.robot)},
             "map": {
                 "file": str(self.map_file),
-                "shape": self.grid.shape,
-                "resolution": self.grid.resolution,
-                "origin": self.grid.origin,
+                "shape": problem.grid.shape,
+                "resolution": problem.grid.resolution,
+                "origin": problem.grid.origin,
             },
             "region": None
             if region is None

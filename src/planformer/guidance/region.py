@@ -27,6 +27,7 @@ class Region:
     """The part of a map in which a good path is believed to run.
 
     Attributes:
+        problem: What it was proposed for: map, robot, start and goal.
         probability: (h, w) float32, one value an anchor point; row 0 = lowest y of the map.
         anchors: (h, w, 2) float64 anchor points in metres in the world frame.
         threshold: Anchors at least this probable are selected.
@@ -34,7 +35,6 @@ class Region:
         connected: Whether start and goal are connected within the region and free space.
         patch: Side of an anchor's patch in metres.
         headings: (h, w) float64 predicted headings in rad in the world frame, None in the plane.
-        cell_area: Area of a cell of the map in square metres.
         yaw_deviations: (h, w) float64 standard deviation of the yaw round each heading in rad; None
             in the plane, or for the same everywhere.
         offsets: (h, w, 2) float64 predicted way in metres, in the world frame, from each anchor to
@@ -42,6 +42,7 @@ class Region:
             inside the selected patches.
     """
 
+    problem: Problem
     probability: NDArray[np.float32]
     anchors: NDArray[np.float64]
     threshold: float
@@ -49,7 +50,6 @@ class Region:
     connected: bool
     patch: float
     headings: NDArray[np.float64] | None
-    cell_area: float
     yaw_deviations: NDArray[np.float64] | None = None
     offsets: NDArray[np.float64] | None = None
 
@@ -75,7 +75,7 @@ class Region:
             offsets=None if self.offsets is None else self.offsets[chosen],
             half_width=0.5 * self.patch,
             # At least a cell: the patches of a padded map may lie beside it.
-            area=max(int(self.mask.sum()), 1) * self.cell_area,
+            area=max(int(self.mask.sum()), 1) * self.problem.grid.resolution**2,
         )
 
     def __repr__(self) -> str:
@@ -131,6 +131,7 @@ def make_region(
         connected = is_connected(mask & ~problem.blocked, problem)
     frame = problem.grid.frame
     return Region(
+        problem=problem,
         probability=probability,
         anchors=frame.to_world(local),
         threshold=threshold,
@@ -138,7 +139,6 @@ def make_region(
         connected=connected,
         patch=scale.patch * scale.resolution,
         headings=None if headings is None else headings + frame.yaw,
-        cell_area=problem.grid.resolution**2,
         yaw_deviations=yaw_deviations,
         offsets=None if offsets is None else _within_patch(offsets, scale, frame),
     )

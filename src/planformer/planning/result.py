@@ -53,6 +53,7 @@ class PlanResult:
     """The answer of `plan`; no path within the limits is an answer too.
 
     Attributes:
+        problem: What was asked: map, robot, start and goal.
         solved: Whether a valid path was found.
         status: Why the search ended.
         path: (N, 2) or (N, 3) float64 states in the world frame, shape (0, 2) or (0, 3) without a
@@ -65,6 +66,7 @@ class PlanResult:
         tree: The search tree if it was asked for.
     """
 
+    problem: Problem
     solved: bool
     status: PlanStatus
     path: NDArray[np.float64]

@@ -215,6 +215,7 @@ def _to_result(
         if not path_is_valid(problem.grid, problem.robot, path):
             path, status = path[:0], PlanStatus.INVALID_PATH
     return PlanResult(
+        problem=problem,
         solved=len(path) > 0,
         status=status,
         path=path,
@@ -231,6 +232,7 @@ def _without_search(
 ) -> PlanResult:
     """The result where the answer is plain: `states` is a path without length or no path."""
     return PlanResult(
+        problem=problem,
         solved=len(states) > 0,
         status=status,
         path=np.array(states, dtype=np.float64).reshape(-1, problem.robot.state_dimension),

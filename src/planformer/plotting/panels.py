@@ -106,8 +106,9 @@ def _write_above(axes: Axes, points: float, text: str, **looks: Any) -> None:
     )
 
 
-def draw_plan(axes: Axes, problem: Problem, result: PlanResult) -> None:
+def draw_plan(axes: Axes, result: PlanResult) -> None:
     """Draw region, search tree and path of a plan, as far as they are there."""
+    problem = result.problem
     if result.region is not None:
         draw_region(axes, problem.grid, result.region)
     if result.tree is not None:

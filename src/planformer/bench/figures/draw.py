@@ -29,7 +29,7 @@ def draw_trees(plans: Sequence[Drawn], *, columns: int) -> Figure:
     figure, panels = make_panels([p.known.problem for p in plans], columns=columns, width=width)
     for axes, drawn in zip(panels, plans, strict=True):
         draw_scene(axes, drawn.known.problem, drawn.system, drawn.detail)
-        draw_plan(axes, drawn.known.problem, drawn.result)
+        draw_plan(axes, drawn.result)
     return figure
 
 
