@@ -8,8 +8,9 @@ from planformer.planning import Tree
 from planformer.plotting.style import rgb
 
 
-def _make_region(grid, probability, threshold=0.5):
+def _make_region(problem, probability, threshold=0.5):
     """A region with anchors evenly spread over a map, each with a patch of its own."""
+    grid = problem.grid
     rows, columns = probability.shape
     x = (np.arange(columns) + 0.5) * grid.width / columns
     y = (np.arange(rows) + 0.5) * grid.height / rows
@@ -17,6 +18,7 @@ def _make_region(grid, probability, threshold=0.5):
     at_row = np.arange(grid.shape[0]) * rows // grid.shape[0]
     at_column = np.arange(grid.shape[1]) * columns // grid.shape[1]
     return pf.Region(
+        problem=problem,
         probability=probability.astype(np.float32),
         anchors=grid.frame.to_world(local),
         threshold=threshold,
@@ -24,12 +26,12 @@ def _make_region(grid, probability, threshold=0.5):
         connected=True,
         patch=grid.width / columns,
         headings=None,
-        cell_area=grid.resolution**2,
     )
 
 
-def _make_result(path, *, region=None, tree=None, solved=True):
+def _make_result(problem, path, *, region=None, tree=None, solved=True):
     return pf.PlanResult(
+        problem=problem,
         solved=solved,
         status=pf.PlanStatus.FINISHED if solved else pf.PlanStatus.TIME_LIMIT,
         path=np.asarray(path, float),

@@ -57,12 +57,12 @@ def test_a_scene_is_titled_and_shows_the_ends():
 def test_a_plan_shows_what_there_is(make_region, make_result, tree_of):
     one = problem()
     _, (axes,) = make_panels([one], columns=1, width=4.0)
-    draw_plan(axes, one, make_result([], solved=False))
+    draw_plan(axes, make_result(one, [], solved=False))
     assert not axes.lines
     assert not axes.collections
     states = [(0.5, 0.5), (2.0, 1.5), (3.5, 1.5)]
-    region = make_region(one.grid, np.ones((2, 4)))
-    draw_plan(axes, one, make_result(states, region=region, tree=tree_of(states)))
+    region = make_region(one, np.ones((2, 4)))
+    draw_plan(axes, make_result(one, states, region=region, tree=tree_of(states)))
     outline, edges = axes.collections
     assert len(outline.get_paths()) == 1
     assert len(edges.get_paths()) == 2
@@ -74,7 +74,7 @@ def test_the_mask_darkens_the_rest_of_the_map(make_region):
     one = problem()
     probability = np.zeros((2, 4))
     probability[0, 1] = 1.0
-    region = make_region(one.grid, probability)
+    region = make_region(one, probability)
     _, (axes,) = make_panels([one], columns=1, width=4.0)
     draw_mask(axes, one, region)
     opacity = axes.images[0].get_array()[..., 3]
@@ -88,7 +88,7 @@ def test_headings_are_ellipses_that_point_along_them(make_region):
     probability = np.zeros((2, 4))
     probability[1, 2] = probability[0, 0] = 1.0
     region = dataclasses.replace(
-        make_region(one.grid, probability),
+        make_region(one, probability),
         headings=np.full((2, 4), 1.2),
         offsets=np.full((2, 4, 2), 0.1),
     )
@@ -108,7 +108,7 @@ def test_a_region_without_anchors_or_headings_has_no_ellipses(make_region):
     one = problem()
     _, (axes,) = make_panels([one], columns=1, width=4.0)
     for value in (0.0, 1.0):
-        draw_headings(axes, make_region(one.grid, np.full((2, 4), value)))
+        draw_headings(axes, make_region(one, np.full((2, 4), value)))
     assert not axes.collections
 
 

@@ -10,7 +10,7 @@ import planformer as pf
 from planformer.errors import InvalidParameter
 from planformer.plotting import plot_result, save_picture
 from planformer.plotting.annotations import nice_length
-from planformer.plotting.layers import car_outlines, edge_lines, outline
+from planformer.plotting.layers import car_outlines, outline
 from planformer.plotting.raster import heat_values, map_image
 from planformer.plotting.view import View, make_view
 
@@ -66,14 +66,16 @@ def test_view_cuts_unknown_space_off():
 @pytest.mark.parametrize("yaw", [0.0, 1.1])
 def test_heat_equals_the_probability_at_the_anchors(make_region, yaw):
     grid = pf.OccupancyGrid(np.zeros((50, 100), bool), 0.1, (2.0, 3.0, yaw))
+    problem = pf.Problem(grid, pf.PointRobot(), *grid.to_xy([(20, 20), (30, 30)]))
     probability = np.random.default_rng(0).random((5, 10))
-    heat = heat_values(whole(grid), make_region(grid, probability), (250, 500))
+    heat = heat_values(whole(grid), make_region(problem, probability), (250, 500))
     np.testing.assert_allclose(heat[24::50, 24::50], probability, atol=0.02)
 
 
 def test_heat_moves_with_the_view(make_region):
     grid = pf.OccupancyGrid(np.zeros((50, 100), bool), 0.1)
-    region = make_region(grid, np.random.default_rng(0).random((5, 10)))
+    problem = pf.Problem(grid, pf.PointRobot(), (2.0, 2.0), (3.0, 3.0))
+    region = make_region(problem, np.random.default_rng(0).random((5, 10)))
     part = heat_values(View(grid, (10, 30), (40, 90)), region, (20, 50))
     all_of_it = heat_values(whole(grid), region, (50, 100))
     # OpenCV interpolates at 32nds of a pixel.
@@ -97,17 +99,6 @@ def test_small_maps_grow_by_whole_factors():
     assert (blocks == blocks[:, :1, :, :1]).all()
 
 
-def test_car_edges_are_arcs_between_their_states():
-    robot = pf.DubinsCar(0.1, 0.5)
-    states = np.array([(0.0, 0.0, 0.0), (1.0, 2.0, 2.0), (-2.0, 1.0, -1.0)])
-    edges = np.array([(0, 1), (1, 2)])
-    for line, (parent, child) in zip(edge_lines(robot, states, edges), edges, strict=True):
-        np.testing.assert_allclose(line[[0, -1]], states[[parent, child], :2], atol=1e-9)
-        assert len(line) > 4
-    (straight,) = edge_lines(pf.PointRobot(), states[:, :2], edges[:1])
-    np.testing.assert_array_equal(straight, states[:2, :2])
-
-
 @pytest.mark.parametrize("length", [0.0, 0.3, 10.0])
 def test_car_outlines_lie_on_the_path_and_point_along_it(length):
     path = np.array([(0.0, 0.0, 0.5), (length * np.cos(0.5), length * np.sin(0.5), 0.5)])
@@ -124,8 +115,8 @@ def test_car_outlines_lie_on_the_path_and_point_along_it(length):
 @pytest.fixture
 def figure(make_result):
     grid = pf.OccupancyGrid(np.zeros((20, 20), bool))
-    ends = (0.2, 0.2), (0.8, 0.8)
-    return plot_result(grid, pf.PointRobot(), *ends, make_result(ends))
+    problem = pf.Problem(grid, pf.PointRobot(), (0.2, 0.2), (0.8, 0.8))
+    return plot_result(make_result(problem, [problem.start, problem.goal]))
 
 
 def test_saved_picture_has_the_figures_size(figure, tmp_path):

@@ -78,6 +78,11 @@ class Region:
             area=max(int(self.mask.sum()), 1) * self.problem.grid.resolution**2,
         )
 
+    def _repr_html_(self) -> str:
+        from planformer.notebook import region_html
+
+        return region_html(self)
+
     def __repr__(self) -> str:
         height, width = self.probability.shape
         return (

@@ -325,6 +325,11 @@ class OccupancyGrid:
     def __hash__(self) -> int:
         return hash((self.shape, self.resolution, self.origin))
 
+    def _repr_html_(self) -> str:
+        from planformer.notebook import map_html
+
+        return map_html(self)
+
     def __repr__(self) -> str:
         rows, columns = self.shape
         x, y, yaw = self.origin

@@ -1,5 +1,6 @@
 """Planning: problems, OMPL's planners on them, results and their check."""
 
+from planformer.planning.edges import edge_lines
 from planformer.planning.problem import Problem
 from planformer.planning.progress import Progress, Snapshot
 from planformer.planning.result import PlanResult, PlanStatus, Tree
@@ -23,6 +24,7 @@ __all__ = [
     "SearchLimits",
     "Snapshot",
     "Tree",
+    "edge_lines",
     "is_connected",
     "path_is_valid",
     "planner_names",

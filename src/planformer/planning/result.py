@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import Enum
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from planformer import _core
 from planformer.planning.problem import Problem
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 class PlanStatus(str, Enum):
@@ -76,6 +79,24 @@ class PlanResult:
     proposal_seconds: float = 0.0
     region: Any = None
     tree: Tree | None = None
+
+    def plot(self, *, title: str | None = None) -> Figure:
+        """Draw map, region, search tree (of a plan with `keep_tree=True`), path, start and goal.
+
+        Args:
+            title: Line above the picture.
+
+        Returns:
+            A Matplotlib figure, which notebooks show. Its `savefig` writes a file.
+        """
+        from planformer.plotting import plot_result
+
+        return plot_result(self, title=title)
+
+    def _repr_html_(self) -> str:
+        from planformer.notebook import result_html
+
+        return result_html(self)
 
     def __repr__(self) -> str:
         outcome = f"length={self.length:.3f} m" if self.solved else "no path"

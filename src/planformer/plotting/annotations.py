@@ -14,17 +14,16 @@ from planformer.planning import PlanResult
 from planformer.plotting import style
 from planformer.plotting.layout import Layout
 from planformer.plotting.words import caption
-from planformer.robots import Robot
 
 _SCALE_BAR = 1.5
 """Greatest length of the scale bar in inches."""
 
 
-def draw_annotations(layout: Layout, robot: Robot, result: PlanResult, title: str | None) -> None:
+def draw_annotations(layout: Layout, result: PlanResult, title: str | None) -> None:
     """Draw everything that stands beside the map."""
     _draw_axes(layout)
     _draw_texts(layout, result, title)
-    _draw_legend(layout, robot, result)
+    _draw_legend(layout, result)
     _draw_scale_bar(layout)
     if result.region is not None:
         _draw_colour_bar(layout)
@@ -59,9 +58,9 @@ def _draw_texts(layout: Layout, result: PlanResult, title: str | None) -> None:
     )
 
 
-def _draw_legend(layout: Layout, robot: Robot, result: PlanResult) -> None:
+def _draw_legend(layout: Layout, result: PlanResult) -> None:
     legend = layout.figure.legend(
-        handles=_handles(robot, result),
+        handles=_handles(result),
         loc="center left",
         bbox_to_anchor=layout.at(0.5, -0.29),
         ncols=5,
@@ -75,8 +74,8 @@ def _draw_legend(layout: Layout, robot: Robot, result: PlanResult) -> None:
     legend.set_zorder(1)
 
 
-def _handles(robot: Robot, result: PlanResult) -> list[Artist]:
-    symbols = (">", ">") if robot.state_dimension == 3 else ("o", "*")
+def _handles(result: PlanResult) -> list[Artist]:
+    symbols = (">", ">") if result.problem.robot.state_dimension == 3 else ("o", "*")
     handles: list[Artist] = [
         Line2D(
             [],

@@ -12,15 +12,14 @@ from matplotlib.path import Path
 from matplotlib.transforms import Affine2D
 from numpy.typing import NDArray
 
-from planformer import _core
 from planformer.geometry import polyline_length
 from planformer.guidance import Region
 from planformer.maps import OccupancyGrid
-from planformer.planning import Tree
+from planformer.planning import PlanResult, Problem, Tree, edge_lines
 from planformer.plotting import style
 from planformer.plotting.raster import image_shape, map_image, resized
 from planformer.plotting.view import View
-from planformer.robots import DubinsCar, Robot
+from planformer.robots import Robot
 
 _OUTLINE_PIXELS = 1600
 _MAX_EDGES = 60_000
@@ -46,6 +45,17 @@ def draw_map(axes: Axes, view: View, radius: float, region: Region | None, *, pi
         zorder=1,
     )
     image.set_transform(Affine2D().rotate(yaw).translate(x, y) + axes.transData)
+
+
+def draw_result(axes: Axes, result: PlanResult) -> None:
+    """Draw region, search tree and path of a plan, as far as they are there."""
+    problem = result.problem
+    if result.region is not None:
+        draw_region(axes, problem.grid, result.region)
+    if result.tree is not None:
+        draw_tree(axes, problem.robot, result.tree)
+    if result.solved:
+        draw_path(axes, problem.robot, result.path)
 
 
 def draw_region(axes: Axes, grid: OccupancyGrid, region: Region) -> None:
@@ -88,22 +98,6 @@ def _tree_opacity(lines: list[NDArray[np.float64]]) -> float:
     # Length for its extent, in lengths of a stroke along it: 1 = drawn once.
     density = length / max(float(np.hypot(*extent)), 1e-9)
     return float(np.clip(_MAX_OPACITY * (_SPARSE / density) ** 0.5, _MIN_OPACITY, _MAX_OPACITY))
-
-
-def edge_lines(
-    robot: Robot, vertices: NDArray[np.float64], edges: NDArray[np.int64]
-) -> list[NDArray[np.float64]]:
-    """(N, 2) points in metres of each edge (parent, child), N >= 2."""
-    if not isinstance(robot, DubinsCar):
-        return list(vertices[edges][..., :2])
-    step = robot.turning_radius / 6.0
-    poses = np.ascontiguousarray(vertices)
-    return [
-        _core.curve_poses(poses[parent], poses[child], robot.turning_radius, robot.reverses, step)[
-            :, :2
-        ]
-        for parent, child in edges
-    ]
 
 
 def draw_path(axes: Axes, robot: Robot, path: NDArray[np.float64]) -> None:
@@ -149,16 +143,16 @@ def _placed(shape: NDArray[np.float64], pose: NDArray[np.float64]) -> NDArray[np
     return np.asarray(Affine2D().rotate(pose[2]).translate(*pose[:2]).transform(shape))
 
 
-def draw_ends(axes: Axes, start: NDArray[np.float64], goal: NDArray[np.float64]) -> None:
+def draw_ends(axes: Axes, problem: Problem) -> None:
     """Mark start and goal: a disc and a star, for a car an arrowhead along each heading."""
     for state, colour, symbol, size in (
-        (start, style.START, "o", 11.5),
-        (goal, style.GOAL, "*", 18.0),
+        (problem.start, style.START, "o", 11.5),
+        (problem.goal, style.GOAL, "*", 18.0),
     ):
         is_pose = len(state) == 3
         axes.plot(
             *state[:2],
-            marker=_dart(float(state[2])) if is_pose else symbol,
+            marker=_dart(state[2]) if is_pose else symbol,
             markersize=19.0 if is_pose else size,
             markerfacecolor=colour,
             markeredgecolor=style.HALO,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from dataclasses import dataclass
 
 from matplotlib.axes import Axes
@@ -10,10 +11,22 @@ from matplotlib.figure import Figure
 from planformer.plotting.view import View
 
 DPI = 160
+_SHOWN_DPI = 72
+"""Pixels an inch in a notebook: smaller than in a file, and sharp on any screen."""
 _AREA = 56.0
 _MIN_SIDE, _MAX_SIDE = 2.0, 12.0
 _MIN_WIDTH = 7.0
 _LEFT, _RIGHT, _TOP, _BOTTOM = 0.55, 0.25, 0.82, 0.88
+
+
+class Picture(Figure):
+    """A figure that notebooks show by itself, without pyplot and its global state."""
+
+    def _repr_png_(self) -> tuple[bytes, dict[str, int]]:
+        buffer = io.BytesIO()
+        self.savefig(buffer, format="png")
+        width, height = (round(side * _SHOWN_DPI) for side in self.get_size_inches().tolist())
+        return buffer.getvalue(), {"width": width, "height": height}
 
 
 @dataclass(frozen=True)
@@ -49,7 +62,7 @@ def make_layout(view: View) -> Layout:
     """Lay out a picture: wide, tall and turned maps alike fill it."""
     low, high = view.world_bounds()
     width, height = _map_size(*(high - low))
-    figure = Figure(
+    figure = Picture(
         figsize=(max(width, _MIN_WIDTH) + _LEFT + _RIGHT, height + _TOP + _BOTTOM),
         dpi=DPI,
         facecolor="white",

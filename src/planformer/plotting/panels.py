@@ -18,7 +18,7 @@ from planformer.planning import PlanResult, Problem
 from planformer.planning.sampling import ELLIPSE_ASPECT
 from planformer.plotting import style
 from planformer.plotting.annotations import fill_colour_bar, nice_length
-from planformer.plotting.layers import draw_ends, draw_map, draw_path, draw_region, draw_tree
+from planformer.plotting.layers import draw_ends, draw_map, draw_result
 from planformer.plotting.view import make_view
 
 DPI = 110
@@ -81,15 +81,14 @@ def draw_scene(
         detail: The second line.
         heat: Its probabilities are drawn on the floor; None for a bare map.
     """
-    ends = [np.asarray(state, np.float64) for state in (problem.start, problem.goal)]
-    view = make_view(problem.grid, [state[:2] for state in ends])
+    view = make_view(problem.grid, [problem.start[:2], problem.goal[:2]])
     inches = axes.get_position().width * _figure(axes).get_size_inches()[0]
     draw_map(axes, view, problem.robot.radius, heat, pixels=int(2 * DPI * inches))
     low, high = view.world_bounds()
     axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), xticks=[], yticks=[])
     axes.spines[:].set_visible(False)
     axes.set_autoscale_on(False)
-    draw_ends(axes, *ends)
+    draw_ends(axes, problem)
     _write_above(axes, 20, title, size=12, weight="bold", color=style.INK)
     _write_above(axes, 5, detail, size=10, color=style.MUTED)
 
@@ -107,12 +106,9 @@ def _write_above(axes: Axes, points: float, text: str, **looks: Any) -> None:
 
 
 def draw_plan(axes: Axes, result: PlanResult) -> None:
-    """Draw region, search tree and path of a plan, as far as they are there."""
-    problem = result.problem
-    if result.region is not None:
-        draw_region(axes, problem.grid, result.region)
+    """Draw what a plan found, with the vertices of the tree."""
+    draw_result(axes, result)
     if result.tree is not None:
-        draw_tree(axes, problem.robot, result.tree)
         axes.plot(
             *result.tree.vertices[:, :2].T,
             ls="none",
@@ -122,8 +118,6 @@ def draw_plan(axes: Axes, result: PlanResult) -> None:
             color=style.VERTEX,
             zorder=3.5,
         )
-    if result.solved:
-        draw_path(axes, problem.robot, result.path)
 
 
 def draw_mask(axes: Axes, problem: Problem, region: Region) -> None:
