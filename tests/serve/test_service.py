@@ -71,6 +71,8 @@ def test_every_field_of_the_api_is_described(client):
         ("MapInfo", "resolution"): "[m]",
         ("PlanRequest", "start"): "rad",
         ("RegionResponse", "anchor_size"): "[m]",
+        ("ProgressResponse", "length"): "[m]",
+        ("TreeUpdate", "curves"): "[m]",
     }
     for (schema, field), unit in units.items():
         properties = description["components"]["schemas"][schema]["properties"]

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 import planformer as pf
-from planformer.planning import Tree
+from planformer.planning import Tree, edge_lines
+from planformer.serve.answers import tree_answer
 from planformer.serve.tree_updates import TreeUpdates
 
 from .test_errors import expect
@@ -103,7 +104,7 @@ def edges_of(vertices, parents):
 def test_updates_follow_growth_new_parents_and_pruning():
     rng = np.random.default_rng(1)
     whole = random_tree(rng, 300)
-    updates, client = TreeUpdates(), ([], [], [])
+    updates, client = TreeUpdates(pf.PointRobot()), ([], [], [])
     for size in (1, 50, 50, 120, 300, 200, 300):
         edges = whole.edges[: size - 1].copy()
         rewired = rng.integers(1, max(size, 2), 5)
@@ -123,12 +124,39 @@ def test_updates_follow_growth_new_parents_and_pruning():
         "parents": [],
         "changed": [],
         "links": [],
+        "curves": [],
     }
+
+
+def test_a_cars_edges_come_with_their_curves():
+    rng = np.random.default_rng(2)
+    car = pf.DubinsCar(0.1, 0.4)
+    tree = random_tree(rng, 60)
+    poses = np.column_stack((tree.vertices, rng.uniform(-3, 3, 60)))
+    updates, curves = TreeUpdates(car), []
+    for size in (20, 60, 60):
+        edges = tree.edges[: size - 1].copy()
+        if size == 60:
+            edges[4, 0] = 0  # has another parent from now on
+        update = updates.update(Tree(poses[:size], edges))
+        count = len(update.parents)
+        curves = curves[: update.first] + update.curves[:count]
+        for vertex, curve in zip(update.changed[::2], update.curves[count:], strict=True):
+            curves[vertex] = curve
+    assert update.curves == []
+    lines = dict(zip(edges[:, 1].tolist(), edge_lines(car, poses, edges), strict=True))
+    shown = tree_answer(Tree(poses, edges), car)
+    assert len(shown.curves) == len(curves) == 60
+    assert shown.curves[0] == []
+    for vertex, curve in enumerate(shown.curves[1:], start=1):
+        np.testing.assert_allclose(np.reshape(curve, (-1, 2)), lines[vertex][1:-1], atol=6e-4)
+        assert len(curve) >= 2
+    assert sorted(map(tuple, shown.curves)) == sorted(map(tuple, curves))
 
 
 def test_vertices_in_the_same_place_are_one():
     start, other = (1.0, 1.0), (2.0, 1.0)
-    updates = TreeUpdates()
+    updates = TreeUpdates(pf.PointRobot())
     twice = Tree(np.array([start, start, other]), np.array([[0, 1], [1, 2]]))
     first = updates.update(twice)
     assert len(first.parents) == 2

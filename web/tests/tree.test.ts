@@ -35,6 +35,30 @@ describe("TreeLines", () => {
     expect([...lines.links]).toEqual([1, 1, 2, 2]);
   });
 
+  test("the edges of a car are curves, which follow their vertices and links", () => {
+    const lines = new TreeLines();
+    lines.add({ ...WHOLE, links: [1, 3], curves: [[], [0.5, 0.1], [], [1, 1], [3, 3]] });
+    expect([0, 1, 2, 3].map((i) => lines.curve(i))).toEqual([[], [0.5, 0.1], [], [1, 1]]);
+    expect(lines.linkCurve(0)).toEqual([3, 3]);
+    lines.add({
+      first: 4,
+      vertices: [4, 4],
+      parents: [3],
+      changed: [1, 3],
+      curves: [
+        [9, 9],
+        [7, 7],
+      ],
+    });
+    expect([1, 3, 4].map((i) => lines.curve(i))).toEqual([
+      [7, 7],
+      [1, 1],
+      [9, 9],
+    ]);
+    lines.add({ vertices: [0, 0, 1, 1], parents: [-1, 0] });
+    expect(lines.curve(1)).toEqual([]); // of a point robot
+  });
+
   test("a whole tree replaces a former one", () => {
     const lines = new TreeLines();
     lines.add(WHOLE);

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planformer.guidance import Region
-from planformer.planning import PlanResult, Tree
+from planformer.planning import PlanResult, Tree, edge_lines
+from planformer.robots import Robot
 from planformer.serve.pictures import mask_png
 from planformer.serve.requests import RunOptions
 from planformer.serve.responses import PlanResponse, RegionResponse, TreeResponse
@@ -45,7 +46,9 @@ def plan_answer(
         guide=guide,
         seed=seed,
         region=region,
-        tree=tree_answer(result.tree) if options.tree and result.tree is not None else None,
+        tree=tree_answer(result.tree, result.problem.robot)
+        if options.tree and result.tree is not None
+        else None,
     )
 
 
@@ -98,12 +101,33 @@ def _spacing(anchors: NDArray[np.float64], patch: float) -> float:
     return float(np.hypot(*(neighbour - anchors[0, 0])))
 
 
-def tree_answer(tree: Tree) -> TreeResponse:
-    """The response for a tree or roadmap."""
+def tree_answer(tree: Tree, robot: Robot) -> TreeResponse:
+    """The response for a robot's tree or roadmap."""
     parents, links = parents_and_links(tree)
+    hung = np.column_stack((parents, np.arange(len(parents))))
     return TreeResponse(
-        vertices=rounded(tree.vertices[:, :2]), parents=parents.tolist(), links=links.tolist()
+        vertices=rounded(tree.vertices[:, :2]),
+        parents=parents.tolist(),
+        links=links.tolist(),
+        curves=curves(robot, tree.vertices, np.concatenate((hung, links.reshape(-1, 2)))),
     )
+
+
+def curves(
+    robot: Robot, vertices: NDArray[np.float64], edges: NDArray[np.int64]
+) -> list[list[float]]:
+    """What a car drives between the ends of edges; nothing for a point robot.
+
+    Args:
+        robot: The robot.
+        vertices: (V, 2) or (V, 3) states.
+        edges: (E, 2) indices (parent, child) into them; a root has the parent -1.
+    """
+    if robot.state_dimension == 2:
+        return []
+    real = edges[:, 0] >= 0
+    lines = iter(edge_lines(robot, vertices, edges[real]))
+    return [rounded(next(lines)[1:-1]) if exists else [] for exists in real]
 
 
 def parents_and_links(tree: Tree) -> tuple[NDArray[np.int64], NDArray[np.int64]]:

@@ -17,6 +17,7 @@ from planformer.serve.errors import handle_errors
 from planformer.serve.guard import GuardHosts
 from planformer.serve.map_routes import map_routes
 from planformer.serve.metrics import CountRequests
+from planformer.serve.openapi import describe_events
 from planformer.serve.page import serve_page
 from planformer.serve.plan_routes import plan_routes
 from planformer.serve.plans import robot_options
@@ -60,6 +61,7 @@ def create_app(settings: ServeSettings | None = None) -> FastAPI:
     app.include_router(plan_routes(service))
     _service_routes(app, service)
     serve_page(app)
+    describe_events(app)
     app.add_middleware(LimitBodies, settings=service.settings)
     app.add_middleware(CountRequests, metrics=service.metrics)
     if service.settings.hosts is not None:

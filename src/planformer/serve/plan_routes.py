@@ -10,6 +10,7 @@ from fastapi.responses import Response, StreamingResponse
 from planformer.errors import InvalidParameter
 from planformer.planning import CancelToken
 from planformer.serve.errors import documented
+from planformer.serve.openapi import EVENT
 from planformer.serve.plans import Run, answer, check_run, execute, propose
 from planformer.serve.requests import CompareRequest, PlanRequest, ProposeRequest
 from planformer.serve.responses import CompareResponse, PlanResponse, RegionResponse
@@ -18,21 +19,10 @@ from planformer.serve.stream import plan_events
 
 _ERRORS = documented(400, 404, 422, 429, 503)
 _EVENTS = """
-Server-sent events. `region`: a RegionResponse, if asked for. `progress`, some 15 a second:
-`seconds` since the search began, `length` [m] of the best path or null, `vertices`, `path` if it is
-a new one, and, if the tree is asked for, `tree`: `first` (keep so many vertices of the former
-events), `vertices` and `parents` to append, `changed` (vertex, parent, vertex, ...) and all `links`
-of a roadmap. Then `result`: a PlanResponse, or `error`: an ErrorBody. What is wrong with a request
-is an ordinary error response.
+Server-sent events. `region`: a RegionResponse, if asked for. `progress`, some 15 a second: a
+ProgressResponse. Then `result`: a PlanResponse, or `error`: an ErrorBody. What is wrong with a
+request is an ordinary error response.
 """
-_EVENT = {
-    "type": "object",
-    "required": ["event", "data"],
-    "properties": {
-        "event": {"enum": ["region", "progress", "result", "error"]},
-        "data": {"type": "string", "contentMediaType": "application/json"},
-    },
-}
 
 
 def plan_routes(service: Service) -> APIRouter:
@@ -72,7 +62,7 @@ def plan_routes(service: Service) -> APIRouter:
         description=_EVENTS,
         response_class=StreamingResponse,
         responses={
-            200: {"content": {"text/event-stream": {"schema": _EVENT}}},
+            200: {"content": {"text/event-stream": {"schema": EVENT}}},
             **_ERRORS,
         },
     )

@@ -92,6 +92,14 @@ class TreeResponse(Response):
         list[int],
         Field(description="Further edges i0, j0, i1, j1, ... of a roadmap; empty for a tree."),
     ] = []
+    curves: Annotated[
+        list[list[float]],
+        Field(
+            description="For a car: points x0, y0, x1, y1, ... [m] between the ends of each edge, "
+            "those of the vertices, then the links; none where it is straight. Empty for a point "
+            "robot."
+        ),
+    ] = []
 
 
 class TreeUpdate(Response):
@@ -111,6 +119,14 @@ class TreeUpdate(Response):
     ]
     links: Annotated[
         list[int], Field(description="All further edges of a roadmap, i0, j0, i1, j1, ...")
+    ]
+    curves: Annotated[
+        list[list[float]],
+        Field(
+            description="For a car: points x0, y0, x1, y1, ... [m] between the ends of each edge, "
+            "those of the new vertices, the changed ones, the links; none where it is straight. "
+            "Empty for a point robot."
+        ),
     ]
 
 

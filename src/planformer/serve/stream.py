@@ -67,7 +67,7 @@ class _News:
         self._run = run
         self._region: RegionResponse | None = None
         self._last: Snapshot | None = None
-        self._tree = TreeUpdates()
+        self._tree = TreeUpdates(run.ends.robot.robot())
 
     def tell_region(self, region: Region, seconds: float) -> None:
         """Note the region; from the search's thread."""

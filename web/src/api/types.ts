@@ -97,6 +97,8 @@ export interface TreeResponse {
   changed?: number[];
   /** Further edges of a roadmap, i0, j0, ...; replaces the former ones. */
   links?: number[];
+  /** For a car: x0, y0, ... between the ends of the edges of new vertices, changed ones and links. */
+  curves?: number[][];
 }
 
 export interface PlanResponse {

@@ -78,7 +78,8 @@ export class TreeLayer {
     this.drawn = 0;
     this.stale = false;
     this.drawNew(view, size, ratio, colour);
-    strokeSegments(this.context, this.lines.links, 0);
+    const { lines } = this;
+    strokeEdges(this.context, lines.links, (link) => lines.linkCurve(link), 0);
     this.drawnAt = performance.now();
     this.cost = this.drawnAt - begun;
   }
@@ -88,20 +89,24 @@ export class TreeLayer {
     context.setTransform(...worldMatrix(view, size, ratio));
     context.strokeStyle = colour;
     context.lineWidth = WIDTH / view.scale;
-    strokeSegments(context, this.lines.segments, this.drawn);
+    const { lines } = this;
+    strokeEdges(context, lines.segments, (segment) => lines.curve(segment), this.drawn);
     this.drawn = this.lines.vertices;
   }
 }
 
-function strokeSegments(
+function strokeEdges(
   context: OffscreenCanvasRenderingContext2D,
   segments: Float32Array,
+  curveOf: (segment: number) => readonly number[],
   first: number,
 ): void {
   for (let from = 4 * first; from < segments.length; from += 4 * BATCH) {
     context.beginPath();
     for (let i = from; i < Math.min(from + 4 * BATCH, segments.length); i += 4) {
       context.moveTo(segments[i]!, segments[i + 1]!);
+      const curve = curveOf(i / 4);
+      for (let j = 0; j + 1 < curve.length; j += 2) context.lineTo(curve[j]!, curve[j + 1]!);
       context.lineTo(segments[i + 2]!, segments[i + 3]!);
     }
     context.stroke();

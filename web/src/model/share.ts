@@ -1,5 +1,5 @@
 /** A problem as the fragment of a link, short and readable, for example
- * `#map=forest,3,24,24,0.05&robot=dubins,0.2,0.55&start=2,2,0&goal=20,21,1.57&run=RRTstar,mpt,0&time=1`.
+ * `#map=forest,3,24,24,0.05&id=0123456789abcdef&robot=dubins,0.2,0.55&start=2,2,0&goal=20,21,1.57&run=RRTstar,mpt,0&time=1`.
  */
 
 import type { MapKind, RobotKind, Stroke } from "../api/types";

@@ -33,9 +33,17 @@ class Floats {
   }
 }
 
+/** x0, y0, ... between the ends of an edge; none where it is straight. */
+type Curve = readonly number[];
+
+const STRAIGHT: Curve = [];
+
 export class TreeLines {
   private edges = new Floats();
   private roadmap = new Floats();
+  /** Of each vertex' edge, of each link; nothing for a point robot. */
+  private edgeCurves: Curve[] = [];
+  private linkCurves: Curve[] = [];
 
   /** x0, y0, x1, y1 in metres from each vertex's parent to the vertex; a point for a root. */
   get segments(): Float32Array {
@@ -47,6 +55,16 @@ export class TreeLines {
     return this.roadmap.view;
   }
 
+  /** What lies between the ends of a segment. */
+  curve(segment: number): Curve {
+    return this.edgeCurves[segment] ?? STRAIGHT;
+  }
+
+  /** What lies between the ends of a link. */
+  linkCurve(link: number): Curve {
+    return this.linkCurves[link] ?? STRAIGHT;
+  }
+
   get vertices(): number {
     return this.edges.length / 4;
   }
@@ -56,7 +74,8 @@ export class TreeLines {
    *
    * @returns Whether segments that were there have changed.
    */
-  add({ first = 0, vertices, parents, changed = [], links = [] }: TreeResponse): boolean {
+  add(tree: TreeResponse): boolean {
+    const { first = 0, vertices, parents, changed = [], links = [], curves = [] } = tree;
     if (first > this.vertices) {
       throw new RangeError(`increment from vertex ${first} after ${this.vertices}`);
     }
@@ -64,6 +83,7 @@ export class TreeLines {
     this.edges.shorten(4 * first);
     this.append(vertices, parents);
     for (let i = 0; i + 1 < changed.length; i += 2) this.hang(changed[i]!, changed[i + 1]!);
+    this.bend(first, parents.length, changed, curves);
     const hadLinks = this.roadmap.length > 0;
     this.roadmap = new Floats();
     for (let i = 0; i + 1 < links.length; i += 2) {
@@ -80,6 +100,17 @@ export class TreeLines {
     }
     // A parent may come after its child.
     for (let i = 0; i < parents.length; i++) this.hang(first + i, parents[i]!);
+  }
+
+  /** Notes the curves of `count` vertices from `first` on, of changed ones and of links. */
+  private bend(first: number, count: number, changed: readonly number[], curves: Curve[]): void {
+    this.edgeCurves.length = Math.min(this.edgeCurves.length, first);
+    if (curves.length === 0) return;
+    for (let i = 0; i < count; i++) this.edgeCurves[first + i] = curves[i]!;
+    for (let i = 0; 2 * i < changed.length; i++) {
+      this.edgeCurves[changed[2 * i]!] = curves[count + i]!;
+    }
+    this.linkCurves = curves.slice(count + changed.length / 2);
   }
 
   /** Makes a vertex the child of another. */
