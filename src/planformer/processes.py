@@ -1,10 +1,16 @@
-"""Child processes that leave Ctrl-C to their parent."""
+"""Cores, and child processes that leave Ctrl-C to their parent."""
 
 from __future__ import annotations
 
+import os
 import signal
 from collections.abc import Iterator
 from contextlib import contextmanager
+
+
+def cores() -> int:
+    """How many cores this process may use."""
+    return len(os.sched_getaffinity(0))
 
 
 @contextmanager

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
@@ -12,6 +11,7 @@ from planformer.errors import UnknownGuide
 from planformer.guidance import AUTO, Region, RegionProposer, resolve_guide
 from planformer.maps import OccupancyGrid
 from planformer.planning import PlanResult
+from planformer.processes import cores
 from planformer.robots import Robot
 
 Query = tuple[Sequence[float], Sequence[float]]
@@ -92,7 +92,7 @@ class MapSession:
         """
         grid = self._grid
         grid.components(self._robot.radius)  # once, before the threads ask for it
-        with ThreadPoolExecutor(workers or len(os.sched_getaffinity(0))) as pool:
+        with ThreadPoolExecutor(workers or cores()) as pool:
             plans = [
                 pool.submit(plan, grid, self._robot, *ends, guide=self._guide, **options)
                 for ends in queries

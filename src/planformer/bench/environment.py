@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import platform
 import re
 import subprocess
@@ -14,6 +13,7 @@ from typing import Any
 import numpy as np
 
 import planformer
+from planformer.processes import cores
 
 _SOURCES = Path(__file__).resolve().parents[3]
 
@@ -35,7 +35,7 @@ def environment() -> dict[str, Any]:
 
 def machine() -> dict[str, Any]:
     """What times depend on most: the processor and how many cores this process may use."""
-    return {"cpu": _cpu_model(), "cores": len(os.sched_getaffinity(0))}
+    return {"cpu": _cpu_model(), "cores": cores()}
 
 
 def _command() -> str:

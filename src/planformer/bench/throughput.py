@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import time
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -17,6 +16,7 @@ from planformer.bench.reporting import markdown_table, session_line, write_summa
 from planformer.data.problems import random_problems
 from planformer.errors import InvalidParameter
 from planformer.maps import OccupancyGrid, generate_forest
+from planformer.processes import cores
 from planformer.robots import PointRobot
 from planformer.session import MapSession, Query
 
@@ -53,11 +53,11 @@ def run_throughput(
     """
     if problems < 1:
         raise InvalidParameter(f"problems must be >= 1; got {problems}")
-    cores = len(os.sched_getaffinity(0))
+    count = cores()
     cases = [
         (maps, workers, task)
         for maps in dict.fromkeys((1, -(-problems // QUERIES_PER_MAP)))
-        for workers in sorted({1, cores})
+        for workers in sorted({1, count})
         for task in TASKS
     ]
     lines = []

@@ -133,7 +133,7 @@ def _table_command(tables: Sequence[str]) -> Callable[..., None]:
         slack: Annotated[
             float, typer.Option(help="A path this many times as long as the reference solves.")
         ] = 1.01,
-        limit: Annotated[float, typer.Option(help="Seconds of a search.")] = 10.0,
+        limit: Annotated[float, typer.Option(help="Seconds of a search.")] = 5.0,
         reference: Annotated[
             str, typer.Option(help="'best', the best path known, or 'rrtstar' as in the paper.")
         ] = "best",
@@ -144,15 +144,19 @@ def _table_command(tables: Sequence[str]) -> Callable[..., None]:
             Path | None, typer.Option(metavar="FOLDER", help="The real maps of table5.")
         ] = None,
         workers: Annotated[
-            int,
-            typer.Option(help="Number of processes; several make times those of a busy machine."),
-        ] = 1,
+            int | None,
+            typer.Option(
+                help="Number of processes. Default: one a core, so that times are those of a busy "
+                "machine, for all systems alike."
+            ),
+        ] = None,
         seed: Annotated[int, typer.Option(help="Seed of the problems.")] = 0,
         as_json: Annotated[
             bool, typer.Option("--json", help="Print the summaries as JSON and nothing else.")
         ] = False,
     ) -> None:
         from planformer.bench.tables import TableSettings, run_table
+        from planformer.processes import cores
 
         settings = TableSettings(
             slack=slack,
@@ -174,7 +178,7 @@ def _table_command(tables: Sequence[str]) -> Callable[..., None]:
                     problems=problems,
                     settings=settings,
                     real_maps=real_maps if table == "table5" else None,
-                    workers=workers,
+                    workers=workers or cores(),
                     report=show,
                 )
             if not as_json:

@@ -5,11 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 from fastapi import FastAPI
+from pydantic import BaseModel
 from pydantic.json_schema import models_json_schema
 
 from planformer.serve.responses import ErrorBody, PlanResponse, ProgressResponse, RegionResponse
 
-_BODIES = {
+_BODIES: dict[str, type[BaseModel]] = {
     "region": RegionResponse,
     "progress": ProgressResponse,
     "result": PlanResponse,

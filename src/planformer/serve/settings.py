@@ -3,18 +3,14 @@
 from __future__ import annotations
 
 import math
-import os
 from dataclasses import dataclass, field, fields
 from pathlib import Path
 
 from planformer.errors import InvalidParameter
+from planformer.processes import cores
 
 LOOPBACK = ("127.0.0.1", "localhost", "::1")
 """Names of this machine that no other machine can reach."""
-
-
-def _cores() -> int:
-    return len(os.sched_getaffinity(0))
 
 
 @dataclass(frozen=True)
@@ -45,7 +41,7 @@ class ServeSettings:
 
     folder: Path | None = None
     hosts: tuple[str, ...] | None = LOOPBACK
-    plans: int = field(default_factory=_cores)
+    plans: int = field(default_factory=cores)
     plan_seconds: float = 10.0
     plan_vertices: int = 200_000
     patience_seconds: float = 0.25

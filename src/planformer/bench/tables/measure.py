@@ -46,7 +46,7 @@ class TableSettings:
     """
 
     slack: float = 1.01
-    seconds: float = 10.0
+    seconds: float = 5.0
     reference: Reference | str = Reference.BEST
     reference_seconds: float = 90.0
     seed: int = 0
