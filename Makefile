@@ -58,13 +58,13 @@ playground: $(SERVE_READY) $(PACKAGE_READY)
 
 ## web: build the page of the playground, after a change in web/
 .PHONY: web
-web: $(NODE_READY)
+web: $(PAGE_READY)
 	$(NPM) run build
 
 ## test-web: check the page and test it in a browser; TEST_ARGS="-g drag" runs some of it
 TEST_ARGS ?=
 .PHONY: test-web
-test-web: $(NODE_READY) $(SERVE_READY) $(PACKAGE_READY)
+test-web: $(PAGE_READY) $(SERVE_READY) $(PACKAGE_READY)
 	$(NPM) run check
 	$(NPM) test
 	PAGE_OUT=$(abspath build/page) $(NPM) run build
