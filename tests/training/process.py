@@ -31,4 +31,5 @@ def run(folder, steps, devices=1):
 
 if __name__ == "__main__":
     folder, steps, devices = sys.argv[1:]
-    print(run(folder, int(steps), int(devices)).step)
+    done = run(folder, int(steps), int(devices))
+    sys.stdout.write(f"{done.step}\n")  # at once: the lines of two processes must not mix
