@@ -58,6 +58,8 @@ class Devices:
     ) -> None:
         if self._fabric and error is None:
             self._fabric.barrier()  # a process that ends early would take the others with it
+            # The last reference to the group has to be this one: dropped with a shared model, the
+            # group would wait, holding the interpreter's lock, for a thread that waits for that.
             torch.distributed.destroy_process_group()
 
     @property

@@ -121,10 +121,11 @@ def train(
     ):
         torch.manual_seed(config.seed)
         state = _state(folder, network, config, data, devices)
-        run = _Run(state, config, folder, devices, validation, report)
         share = (devices.rank, devices.count)
-        return run.until_done(
-            training_batches(data, network.scale, config, step=state.step, share=share), interrupt
+        batches = training_batches(data, network.scale, config, step=state.step, share=share)
+        # No name for the run: a shared model must be gone before the devices part (see `Devices`).
+        return _Run(state, config, folder, devices, validation, report).until_done(
+            batches, interrupt
         )
 
 
