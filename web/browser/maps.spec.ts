@@ -75,6 +75,21 @@ test("a damaged file is refused in words, and the map stays", async ({ page }) =
   await expect(page.getByRole("alert")).toBeHidden();
 });
 
+test("of two maps, the one asked for last is shown", async ({ page }) => {
+  await new Playground(page).open(link({}));
+  await page.route("**/maps/generate", async (route) => {
+    if (route.request().postDataJSON().kind === "forest") {
+      await new Promise((resolve) => setTimeout(resolve, 2000));
+    }
+    await route.continue();
+  });
+  await page.locator("#map-seed").fill("3"); // asks for a forest when the focus leaves it
+  await page.getByRole("button", { name: "Maze" }).click();
+  await expect(page.locator("#facts")).toContainText("maze 3");
+  await page.waitForTimeout(3000);
+  await expect(page.locator("#facts")).toContainText("maze 3");
+});
+
 test("maps are generated from a kind and a seed", async ({ page }) => {
   const playground = new Playground(page);
   await playground.open(link({}));

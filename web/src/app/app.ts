@@ -45,6 +45,8 @@ export class App {
   private readonly maps: Maps;
   private loaded: LoadedMap | null = null;
   private former: LoadedMap[] = [];
+  /** The map that was asked for last. */
+  private wanted: (() => Promise<LoadedMap>) | null = null;
   /** Strokes that the server does not know yet. */
   strokes: Stroke[] = [];
   private editing: Promise<void> = Promise.resolve();
@@ -247,8 +249,9 @@ export class App {
   }
 
   private async replaceMap(get: () => Promise<LoadedMap>): Promise<void> {
+    this.wanted = get;
     const loaded = await this.attempt(get);
-    if (!loaded) return;
+    if (!loaded || this.wanted !== get) return; // another map was asked for meanwhile
     this.former = [];
     const { problem } = this.store.current;
     const robot = problem?.robot ?? { kind: "point", ...DEFAULT_SIZES.point };
