@@ -9,13 +9,13 @@ import math
 from collections.abc import Mapping
 
 import numpy as np
-from matplotlib.figure import Figure
 from PIL import Image
 
 from planformer.guidance import Region
 from planformer.maps import OccupancyGrid
 from planformer.planning import PlanResult
 from planformer.plotting.raster import map_image
+from planformer.plotting.save import encoded
 from planformer.plotting.sketch import sketch
 from planformer.plotting.view import View
 from planformer.plotting.words import duration, outcome
@@ -59,7 +59,7 @@ def region_html(region: Region) -> str:
             "share of the map": f"{region.share:.1%}",
             "connects the ends": "yes" if region.connected else "no",
         },
-        _png(sketch(region.problem, region=region, result=None)),
+        encoded(sketch(region.problem, region=region, result=None), "png"),
     )
 
 
@@ -74,14 +74,8 @@ def result_html(result: PlanResult) -> str:
             "planning": duration(result.planning_seconds),
             "proposal": duration(result.proposal_seconds) if result.region else "none",
         },
-        _png(sketch(result.problem, region=result.region, result=result)),
+        encoded(sketch(result.problem, region=result.region, result=result), "png"),
     )
-
-
-def _png(figure: Figure) -> bytes:
-    buffer = io.BytesIO()
-    figure.savefig(buffer, format="png")
-    return buffer.getvalue()
 
 
 def _card(name: str, facts: Mapping[str, str], png: bytes) -> str:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import io
 from dataclasses import dataclass
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from planformer.plotting.save import encoded
 from planformer.plotting.view import View
 
 DPI = 160
@@ -23,10 +23,8 @@ class Picture(Figure):
     """A figure that notebooks show by itself, without pyplot and its global state."""
 
     def _repr_png_(self) -> tuple[bytes, dict[str, int]]:
-        buffer = io.BytesIO()
-        self.savefig(buffer, format="png")
         width, height = (round(side * _SHOWN_DPI) for side in self.get_size_inches().tolist())
-        return buffer.getvalue(), {"width": width, "height": height}
+        return encoded(self, "png"), {"width": width, "height": height}
 
 
 @dataclass(frozen=True)

@@ -31,6 +31,11 @@ def save_picture(figure: Figure, path: str | os.PathLike[str]) -> None:
     if kind not in _FORMATS:
         valid = ", ".join(f".{name}" for name in _FORMATS)
         raise InvalidParameter(f"{file}: a picture's suffix must be one of {valid}")
+    write_files({file: encoded(figure, kind)})
+
+
+def encoded(figure: Figure, kind: str) -> bytes:
+    """The bytes of a figure's file of a kind ("png", "pdf", ...)."""
     buffer = io.BytesIO()
     figure.savefig(buffer, format=kind)
-    write_files({file: buffer.getvalue()})
+    return buffer.getvalue()
