@@ -58,7 +58,7 @@ bool python_interrupted() {
 Answer run_plan(const BlockedArray& blocked, double resolution, const RobotModel& robot,
                 const std::array<double, 3>& start, const std::array<double, 3>& goal,
                 const std::string& planner, const Region* region, double exploration,
-                const Limits& limits, std::uint32_t seed, bool keep_tree,
+                double refinement, const Limits& limits, std::uint32_t seed, bool keep_tree,
                 const Cancellation* cancellation, Progress* progress) {
     Query query;
     query.free_space = free_space_of(blocked, resolution);
@@ -69,6 +69,7 @@ Answer run_plan(const BlockedArray& blocked, double resolution, const RobotModel
     // A copy: OMPL 1.5 may keep it until the process ends, when Python's objects are gone.
     if (region) query.guidance.region = std::make_shared<const Region>(*region);
     query.guidance.exploration = exploration;
+    query.guidance.refinement = refinement;
     query.limits = limits;
     query.seed = seed;
     query.keep_tree = keep_tree;
@@ -156,14 +157,13 @@ void register_planning(nb::module_& m) {
              nb::arg("yaw_deviations"), nb::arg("ends").none(), nb::arg("area"))
         .def(
             "sample",
-            [](const Region& self, std::size_t count, std::uint32_t seed, double focus) {
+            [](const Region& self, std::size_t count, std::uint32_t seed) {
                 ompl::RNG rng(seed);
                 std::vector<Pose> poses(count);
-                for (Pose& pose : poses) pose = sample_region(self, rng, focus);
+                for (Pose& pose : poses) pose = sample_region(self, rng);
                 return to_numpy(poses);
             },
-            nb::arg("count"), nb::arg("seed"), nb::arg("focus") = 0.0,
-            "Draw (count, 3) poses, some maybe off the map.");
+            nb::arg("count"), nb::arg("seed"), "Draw (count, 3) poses, some maybe off the map.");
 
     nb::class_<Answer>(m, "Answer")
         .def_prop_ro(
@@ -180,9 +180,9 @@ void register_planning(nb::module_& m) {
 
     m.def("plan", &run_plan, nb::arg("blocked"), nb::arg("resolution"), nb::arg("robot"),
           nb::arg("start"), nb::arg("goal"), nb::kw_only(), nb::arg("planner"),
-          nb::arg("region") = nb::none(), nb::arg("exploration") = 0.0, nb::arg("limits"),
-          nb::arg("seed"), nb::arg("keep_tree") = false, nb::arg("cancellation") = nb::none(),
-          nb::arg("progress") = nb::none(),
+          nb::arg("region") = nb::none(), nb::arg("exploration") = 0.0, nb::arg("refinement") = 0.0,
+          nb::arg("limits"), nb::arg("seed"), nb::arg("keep_tree") = false,
+          nb::arg("cancellation") = nb::none(), nb::arg("progress") = nb::none(),
           "Plan in the map's local frame; see planformer.planning.search.");
     m.def("planner_names", &planner_names, nb::arg("robot"));
     m.def(

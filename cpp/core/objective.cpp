@@ -15,10 +15,6 @@ namespace {
 /// Draws before a sampler gives up. Planners pass "unlimited", which would never return once the
 /// solution is as short as the straight line.
 constexpr unsigned int kMaxDraws = 200;
-/// Share of the samples close to the predicted path once a path is known. A path bends where it
-/// passes an obstacle, and only samples near the bend make it shorter; the first path is found
-/// later with them.
-constexpr double kFocus = 0.5;
 
 std::array<double, 2> xy(const Pose& pose) { return {pose.x, pose.y}; }
 
@@ -55,8 +51,10 @@ bool RegionInformedSampler::draw(double min_cost, double max_cost, Pose* pose) {
     const bool guided = guidance_.region && !explore;
     for (unsigned int i = 0; i < numIters_; ++i) {
         // The second half of the draws ignores a region that the shrinking ellipse has left.
-        if (guided && i < numIters_ / 2) {
-            *pose = sample_region(*guidance_.region, rng_, bounded ? kFocus : 0.0);
+        if (const auto refining = sample_refinement(guidance_, rng_)) {
+            *pose = *refining;
+        } else if (guided && i < numIters_ / 2) {
+            *pose = sample_region(*guidance_.region, rng_);
         } else {
             *pose = bounded ? sample_ellipse() : sample_extent(extent_, rng_);
         }

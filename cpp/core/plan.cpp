@@ -48,10 +48,7 @@ ob::StateSpacePtr make_space(const RobotModel& robot, const Extent& extent,
     return space;
 }
 
-ob::SpaceInformationPtr make_space_information(const Query& query, const Extent& extent,
-                                               const StateCountPtr& count, const SeedsPtr& seeds) {
-    const ob::StateSpacePtr space = make_space(query.robot, extent, count);
-    space->setStateSamplerAllocator(guided_sampler_allocator(query.guidance, extent, seeds));
+ob::SpaceInformationPtr make_space_information(const Query& query, const ob::StateSpacePtr& space) {
     auto si = std::make_shared<ob::SpaceInformation>(space);
     si->setStateValidityChecker(std::make_shared<GridValidityChecker>(si, query.free_space));
     si->setMotionValidator(std::make_shared<GridMotionValidator>(si, query.free_space));
@@ -59,15 +56,16 @@ ob::SpaceInformationPtr make_space_information(const Query& query, const Extent&
     return si;
 }
 
-ob::ProblemDefinitionPtr make_problem(const Query& query, const Extent& extent,
-                                      const ob::SpaceInformationPtr& si, const SeedsPtr& seeds) {
+ob::ProblemDefinitionPtr make_problem(const Query& query, const Guidance& guidance,
+                                      const Extent& extent, const ob::SpaceInformationPtr& si,
+                                      const SeedsPtr& seeds) {
     auto problem = std::make_shared<ob::ProblemDefinition>(si);
     ob::ScopedState<> start(si);
     ob::ScopedState<> goal(si);
     write_state(*si->getStateSpace(), query.start, start.get());
     write_state(*si->getStateSpace(), query.goal, goal.get());
     problem->setStartAndGoalStates(start, goal);
-    auto objective = std::make_shared<GuidedPathLength>(si, query.guidance, extent, seeds);
+    auto objective = std::make_shared<GuidedPathLength>(si, guidance, extent, seeds);
     // Nothing is shorter than the way without obstacles: a path as short ends the search too, which
     // could only go on sampling an informed set that has become empty.
     const double optimal = si->distance(start.get(), goal.get()) * (1.0 + kOptimalityGap);
@@ -92,8 +90,16 @@ Answer plan_geometric(const Query& query) {
     const Extent extent{query.free_space.extent_x(), query.free_space.extent_y()};
     const auto states = std::make_shared<StateCount>(0);
     const auto seeds = std::make_shared<Seeds>(query.seed);
-    const auto si = make_space_information(query, extent, states, seeds);
-    const auto problem = make_problem(query, extent, si, seeds);
+    const ob::StateSpacePtr space = make_space(query.robot, extent, states);
+    const auto incumbent = std::make_shared<Incumbent>(*space, query.start, query.goal);
+    Guidance guidance = query.guidance;
+    guidance.incumbent = incumbent;
+    space->setStateSamplerAllocator(guided_sampler_allocator(guidance, extent, seeds));
+    const auto si = make_space_information(query, space);
+    const auto problem = make_problem(query, guidance, extent, si, seeds);
+    problem->setIntermediateSolutionCallback(
+        [incumbent](const ob::Planner*, const std::vector<const ob::State*>& found,
+                    const ob::Cost cost) { incumbent->improve(found, cost.value()); });
     const ob::PlannerPtr planner = seeded(seeds->next(), [&] {
         ob::PlannerPtr made = make_planner(query.planner, si, query.limits.vertices);
         if (!made) throw std::invalid_argument("unknown planner: " + query.planner);
@@ -102,7 +108,7 @@ Answer plan_geometric(const Query& query) {
         return made;
     });
 
-    return run(query, started, *planner, *states, [&](Answer* answer) {
+    return run(query, started, *planner, *states, *incumbent, [&](Answer* answer) {
         const auto& path = *problem->getSolutionPath()->as<og::PathGeometric>();
         answer->length = path.length();
         answer->path = read_path(path, pose_spacing(query));
@@ -112,9 +118,12 @@ Answer plan_geometric(const Query& query) {
 }  // namespace
 
 Answer run(const Query& query, Clock::time_point started, ob::Planner& planner,
-           const StateCount& states, const std::function<void(Answer*)>& read_solution) {
+           const StateCount& states, const Incumbent& incumbent,
+           const std::function<void(Answer*)>& read_solution) {
     std::optional<Recorder> recorder;
-    if (query.progress) recorder.emplace(query.progress, &planner, states, pose_spacing(query));
+    if (query.progress) {
+        recorder.emplace(query.progress, &planner, states, incumbent, pose_spacing(query));
+    }
     Monitor monitor(query.limits, started, planner, states, query.cancellation, query.interrupted,
                     recorder ? &*recorder : nullptr);
     planner.solve(monitor.condition());

@@ -10,6 +10,7 @@
 #include "core/curve.hpp"
 #include "core/free_space.hpp"
 #include "core/graph.hpp"
+#include "core/incumbent.hpp"
 #include "core/monitor.hpp"
 #include "core/planners.hpp"
 #include "core/progress.hpp"
@@ -59,6 +60,7 @@ Answer plan(const Query& query);
 
 /// Lets a planner search until a limit, and reports; `read_solution` fills in path and length.
 Answer run(const Query& query, Clock::time_point started, ompl::base::Planner& planner,
-           const StateCount& states, const std::function<void(Answer*)>& read_solution);
+           const StateCount& states, const Incumbent& incumbent,
+           const std::function<void(Answer*)>& read_solution);
 
 }  // namespace planformer

@@ -10,6 +10,7 @@
 
 #include "core/curve.hpp"
 #include "core/graph.hpp"
+#include "core/incumbent.hpp"
 #include "core/state_count.hpp"
 
 namespace planformer {
@@ -53,18 +54,16 @@ private:
 
 /// Takes the snapshots of one search, in the planner's thread.
 ///
-/// Planners tell of better paths through OMPL's callback for intermediate solutions, or by adding
-/// them to the problem while they search. SST and planners that end with their first path do
-/// neither.
+/// Planners tell of better paths through OMPL's callback for intermediate solutions, which the
+/// incumbent hears, or by adding them to the problem while they search: these stay here, or what is
+/// sampled would depend on when snapshots are taken. SST and planners that end with their first
+/// path do neither.
 class Recorder {
 public:
-    /// `step`: spacing of the poses between a car's states [m]. Planner and count have to outlive
-    /// the recorder.
+    /// `step`: spacing of the poses between a car's states [m]. Planner, count and incumbent have
+    /// to outlive the recorder.
     Recorder(Progress* progress, ompl::base::Planner* planner, const StateCount& states,
-             double step);
-    ~Recorder();
-    Recorder(const Recorder&) = delete;
-    Recorder& operator=(const Recorder&) = delete;
+             const Incumbent& incumbent, double step);
 
     /// Whether a snapshot is due after so many seconds of the search.
     bool is_due(double seconds) const { return seconds >= next_; }
@@ -73,16 +72,15 @@ public:
     void take(double seconds);
 
 private:
-    void note_solution(const std::vector<const ompl::base::State*>& states, double length);
-    void note_problem_solution();
+    const Incumbent& best();
 
     Progress* progress_;
     ompl::base::Planner* planner_;
     const StateCount& states_;
+    const Incumbent& incumbent_;
+    Incumbent added_;  ///< to the problem
     double step_;
     double next_ = 0.0;
-    double length_ = std::numeric_limits<double>::infinity();
-    std::vector<Pose> path_states_;
 };
 
 }  // namespace planformer

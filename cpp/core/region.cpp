@@ -17,8 +17,6 @@ namespace {
 constexpr int kMaxRedraws = 100;
 /// Share of a point's samples that come from the anchors' own squares.
 constexpr double kLatticeShare = 0.2;
-/// How far focused samples stray from the predicted path [m].
-constexpr double kFocusDeviation = 0.1;
 /// Share of the samples next to start and goal.
 constexpr double kEndShare = 0.2;
 /// Longest of the two arcs to such a sample, in turning radii.
@@ -31,11 +29,6 @@ bool is_car(const ob::StateSpace& space) { return space.getType() == ob::STATE_S
 Pose sample_square(const Pose& centre, double half_width, ompl::RNG& rng) {
     return {centre.x + rng.uniformReal(-half_width, half_width),
             centre.y + rng.uniformReal(-half_width, half_width), rng.uniformReal(-kPi, kPi)};
-}
-
-Pose sample_near(const Pose& centre, ompl::RNG& rng) {
-    return {rng.gaussian(centre.x, kFocusDeviation), rng.gaussian(centre.y, kFocusDeviation),
-            rng.uniformReal(-kPi, kPi)};
 }
 
 Pose sample_ellipse(const Region& region, const Pose& centre, double yaw_deviation,
@@ -51,7 +44,7 @@ Pose sample_ellipse(const Region& region, const Pose& centre, double yaw_deviati
 }
 
 /// Draws from the whole shape of an anchor.
-Pose sample_shape(const Region& region, std::size_t index, double focus, ompl::RNG& rng) {
+Pose sample_shape(const Region& region, std::size_t index, ompl::RNG& rng) {
     const auto& [dx, dy] = region.offsets[index];
     const Pose& anchor = region.anchors[index];
     // Squares that lie round a predicted path may leave gaps where a path has to pass.
@@ -62,8 +55,6 @@ Pose sample_shape(const Region& region, std::size_t index, double focus, ompl::R
     if (region.has_heading) {
         return sample_ellipse(region, centre, region.yaw_deviations[index], rng);
     }
-    const bool lies_on_path = region.minor_axis < region.half_width;
-    if (lies_on_path && focus > 0.0 && rng.uniform01() < focus) return sample_near(centre, rng);
     return sample_square(centre, region.minor_axis, rng);
 }
 
@@ -113,16 +104,16 @@ Pose read_state(const ob::StateSpace& space, const ob::State* state) {
     return {car->getX(), car->getY(), car->getYaw()};
 }
 
-Pose sample_region(const Region& region, ompl::RNG& rng, double focus) {
+Pose sample_region(const Region& region, ompl::RNG& rng) {
     const bool is_car = region.ends.turning_radius > 0.0;
     if (is_car && rng.uniform01() < kEndShare) return sample_end(region.ends, rng);
     const int last = static_cast<int>(region.anchors.size()) - 1;
     const auto index = static_cast<std::size_t>(rng.uniformInt(0, last));
-    Pose pose = sample_shape(region, index, focus, rng);
+    Pose pose = sample_shape(region, index, rng);
     for (int i = 0; i < kMaxRedraws; ++i) {
         const bool is_near = is_in_square(region.anchors[index], region.half_width, pose);
         if (is_near || is_in_region(region, pose)) return pose;
-        pose = sample_shape(region, index, focus, rng);
+        pose = sample_shape(region, index, rng);
     }
     return region.anchors[index];
 }
@@ -132,7 +123,16 @@ Pose sample_extent(const Extent& extent, ompl::RNG& rng) {
             rng.uniformReal(-kPi, kPi)};
 }
 
+std::optional<Pose> sample_refinement(const Guidance& guidance, ompl::RNG& rng) {
+    const bool possible = guidance.incumbent && guidance.incumbent->exists();
+    if (!possible || guidance.refinement == 0.0) return std::nullopt;
+    if (rng.uniform01() >= guidance.refinement) return std::nullopt;
+    return guidance.incumbent->sample_near(rng);
+}
+
 Pose sample_guided(const Guidance& guidance, const Extent& extent, ompl::RNG& rng) {
+    const auto refining = sample_refinement(guidance, rng);
+    if (refining && extent.contains(*refining)) return *refining;
     const bool explore = guidance.exploration > 0.0 && rng.uniform01() < guidance.exploration;
     if (!guidance.region || explore) return sample_extent(extent, rng);
     Pose pose = sample_region(*guidance.region, rng);

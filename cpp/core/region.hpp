@@ -6,9 +6,11 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/curve.hpp"
+#include "core/incumbent.hpp"
 #include "core/seeding.hpp"
 
 namespace planformer {
@@ -57,10 +59,13 @@ struct Extent {
     }
 };
 
-/// Where samples come from: the region, and with probability `exploration` the whole map.
+/// Where samples come from: the region, and with probability `exploration` the whole map. Once a
+/// path is known, with probability `refinement` its surroundings, wherever they lie.
 struct Guidance {
     std::shared_ptr<const Region> region;  ///< null: the whole map
     double exploration = 0.0;
+    double refinement = 0.0;
+    std::shared_ptr<const Incumbent> incumbent;  ///< the search's best path; null: unknown
 };
 
 /// Writes a pose into a state of R^2 or SE(2); the yaw is dropped in R^2.
@@ -70,12 +75,13 @@ void write_state(const ompl::base::StateSpace& space, const Pose& pose, ompl::ba
 Pose read_state(const ompl::base::StateSpace& space, const ompl::base::State* state);
 
 /// Draws one pose inside the region; it may lie outside the map.
-///
-/// @param focus  Share of a point's samples that lie close to the predicted path, if there is one.
-Pose sample_region(const Region& region, ompl::RNG& rng, double focus = 0.0);
+Pose sample_region(const Region& region, ompl::RNG& rng);
 
 /// Draws one pose uniformly on the map.
 Pose sample_extent(const Extent& extent, ompl::RNG& rng);
+
+/// Draws a pose near the best path, it may lie outside the map; or says that none is due.
+std::optional<Pose> sample_refinement(const Guidance& guidance, ompl::RNG& rng);
 
 /// Draws poses as the guidance says, never outside the map.
 Pose sample_guided(const Guidance& guidance, const Extent& extent, ompl::RNG& rng);

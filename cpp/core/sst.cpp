@@ -243,7 +243,8 @@ Answer plan_sst(const Query& query) {
         made->setup();
         return made;
     });
-    return run(query, started, *planner, *states, [&](Answer* answer) {
+    const Incumbent incumbent(*si->getStateSpace(), query.start, query.goal);
+    return run(query, started, *planner, *states, incumbent, [&](Answer* answer) {
         read_path(query, *problem->getGoal()->as<CarGoal>(),
                   *problem->getSolutionPath()->as<oc::PathControl>(), answer);
     });

@@ -89,9 +89,7 @@ class Region:
         ends: Ends | None,
         area: float,
     ) -> None: ...
-    def sample(
-        self, count: int, seed: int, focus: float = 0.0
-    ) -> NDArray[np.float64]: ...  # (count, 3)
+    def sample(self, count: int, seed: int) -> NDArray[np.float64]: ...  # (count, 3)
 
 class Answer:
     @property
@@ -119,6 +117,7 @@ def plan(
     planner: str,
     region: Region | None = None,
     exploration: float = 0.0,
+    refinement: float = 0.0,
     limits: Limits,
     seed: int,
     keep_tree: bool = False,

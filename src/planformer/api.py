@@ -13,6 +13,7 @@ from planformer.errors import UnknownPlanner
 from planformer.guidance import AUTO, Region, RegionProposer, resolve_guide
 from planformer.maps import OccupancyGrid
 from planformer.planning import (
+    REFINEMENT,
     CancelToken,
     PlanResult,
     Problem,
@@ -34,6 +35,7 @@ def plan(
     guide: str | RegionProposer | None = AUTO,
     threshold: float | None = None,
     exploration: float = 0.0,
+    refinement: float = REFINEMENT,
     time_limit: float | None = 5.0,
     target_length: float | None = None,
     max_vertices: int | None = None,
@@ -56,12 +58,14 @@ def plan(
             by itself (MPNet, NEXT-KS); `planner_names(robot)` lists them.
         guide: "auto" for `default_guide`, the name of shipped weights, the path of an .onnx file, a
             `RegionProposer`, or None for an unguided planner. A learned planner does without, and
-            without threshold and exploration.
+            without threshold, exploration and refinement.
         threshold: Probability above which an anchor belongs to the region: 0.5 as in the paper, or
             None to choose the one that connects start and goal in this query. Only for a guide
             given by name.
         exploration: Share of samples drawn outside the region, from the whole map; 0 = region
             only, 0.5 = the paper's alternation of exploitation and exploration (-EE).
+        refinement: Share of samples drawn near the best path so far, once there is one; 0 = OMPL's
+            planner as it is. SST does not refine.
         time_limit: Wall-clock limit of the search in seconds, None for none.
         target_length: Stop at the first path at most this long, in metres.
         max_vertices: Stop when the tree holds this many states.
@@ -100,6 +104,7 @@ def plan(
         planner,
         region=None if region is None else region.sampling(),
         exploration=exploration,
+        refinement=refinement,
         limits=limits,
         seed=seed,
         keep_tree=keep_tree,

@@ -252,10 +252,11 @@ def test_an_unknown_planner_is_an_error_that_lists_the_planners_of_the_robot(ope
         assert all(name in str(error.value) for name in planner_names(robot))
 
 
-@pytest.mark.parametrize("exploration", [-0.01, 1.01, np.nan, np.inf])
-def test_exploration_is_a_share(open_room, exploration):
-    with pytest.raises(InvalidParameter, match="exploration"):
-        search(random_problem(open_room, POINT, 1), "RRT", exploration=exploration)
+@pytest.mark.parametrize("name", ["exploration", "refinement"])
+@pytest.mark.parametrize("share", [-0.01, 1.01, np.nan, np.inf])
+def test_exploration_and_refinement_are_shares(open_room, name, share):
+    with pytest.raises(InvalidParameter, match=name):
+        search(random_problem(open_room, POINT, 1), "RRT", **{name: share})
 
 
 @pytest.mark.parametrize("seed", [-1, 2**32, 0.5, "1"])

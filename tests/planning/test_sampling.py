@@ -28,7 +28,7 @@ def region_of(anchors, headings=None, half_width=0.4):
     return SamplingRegion(anchors, headings, half_width, area)
 
 
-def draw(anchors, headings, half_width, count, seed=1, offsets=None, focus=0.0):
+def draw(anchors, headings, half_width, count, seed=1, offsets=None):
     poses = np.column_stack((anchors, np.zeros(len(anchors)) if headings is None else headings))
     offsets = None if offsets is None else np.asarray(offsets, float)
     region = _core.Region(
@@ -43,7 +43,7 @@ def draw(anchors, headings, half_width, count, seed=1, offsets=None, focus=0.0):
         ends=None,
         area=1.0,
     )
-    return region.sample(count, seed, focus)
+    return region.sample(count, seed)
 
 
 @settings(max_examples=30)
@@ -115,19 +115,6 @@ def test_some_samples_are_poses_after_the_start_or_before_the_goal():
     assert _core.curve_lengths(ends[0], after, radius, False).max() <= longest + 1e-6
     assert _core.curve_lengths(before, ends[1], radius, False).max() <= longest + 1e-6
     assert (np.abs(samples[:, :2]).max(axis=1) <= 0.8).mean() == pytest.approx(0.8, abs=0.02)
-
-
-def test_focused_samples_lie_close_to_the_predicted_path():
-    offset = np.array([(0.3, 0.0)])
-    samples = draw([(5.0, 5.0)], None, 0.8, 8000, offsets=offset, focus=1.0)[:, :2]
-    away = np.hypot(*(samples - (5.3, 5.0)).T)
-    assert (away < 0.3).mean() == pytest.approx(0.8 + 0.2 * np.pi * 0.3**2 / 1.6**2, abs=0.03)
-    # Nothing is known of a path without offsets, and a car has its headings.
-    assert (
-        draw([(5.0, 5.0)], None, 0.8, 500, focus=1.0) == draw([(5.0, 5.0)], None, 0.8, 500)
-    ).all()
-    car = ([(5.0, 5.0)], np.array([1.0]), 0.8, 500)
-    assert (draw(*car, offsets=offset, focus=1.0) == draw(*car, offsets=offset)).all()
 
 
 def test_a_spread_for_each_anchor_is_needed():
@@ -213,6 +200,7 @@ def test_every_planner_samples_the_region(two_rooms, planner):
         problem_in(two_rooms, POINT),
         planner,
         region=region,
+        refinement=0.0,
         limits=SearchLimits(30.0, max_vertices=400),
         seed=3,
         keep_tree=True,
@@ -224,6 +212,7 @@ def test_every_planner_samples_the_region(two_rooms, planner):
     unguided = search(
         problem_in(two_rooms, POINT),
         planner,
+        refinement=0.0,
         limits=SearchLimits(30.0, max_vertices=400),
         seed=3,
         keep_tree=True,

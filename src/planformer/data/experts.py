@@ -75,7 +75,7 @@ class RRTstarExpert:
     def solve(self, problem: Problem, seed: int) -> NDArray[np.float64] | None:
         """See `Expert.solve`."""
         limits = SearchLimits(self.seconds, max_vertices=self.max_vertices)
-        result = search(problem, "RRTstar", limits=limits, seed=seed)
+        result = search(problem, "RRTstar", refinement=0.0, limits=limits, seed=seed)
         return result.path if result.solved else None
 
 

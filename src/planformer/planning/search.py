@@ -17,7 +17,7 @@ from planformer.geometry import Frame, wrap_angle
 from planformer.planning.problem import Problem, State
 from planformer.planning.progress import Progress
 from planformer.planning.result import PlanResult, PlanStatus, Tree
-from planformer.planning.sampling import YAW_DEVIATION, SamplingRegion
+from planformer.planning.sampling import REFINEMENT, YAW_DEVIATION, SamplingRegion
 from planformer.planning.validity import path_is_valid
 from planformer.robots import DubinsCar, Robot
 
@@ -73,6 +73,7 @@ def search(
     *,
     region: SamplingRegion | None = None,
     exploration: float = 0.0,
+    refinement: float = REFINEMENT,
     limits: SearchLimits | None = None,
     seed: int | None = None,
     keep_tree: bool = False,
@@ -86,6 +87,8 @@ def search(
         planner: OMPL class name, see `planner_names`.
         region: Where samples are drawn; None for the whole map.
         exploration: Share of the samples drawn from the whole map, 0 to 1.
+        refinement: Share of the samples drawn near the best path, 0 to 1, once there is one; they
+            may leave the region. 0 gives OMPL's planner as it is. SST does not refine.
         limits: When to stop; five seconds by default.
         seed: 0 to 2**32 - 1; the same seed gives the same result unless the time limit ends the
             search. None draws one.
@@ -107,8 +110,9 @@ def search(
             f"unknown planner {planner!r} for a {type(problem.robot).__name__}; "
             f"valid names: {', '.join(names)}"
         )
-    if not 0.0 <= exploration <= 1.0:
-        raise InvalidParameter(f"exploration must be between 0 and 1; got {exploration}")
+    for name, share in (("exploration", exploration), ("refinement", refinement)):
+        if not 0.0 <= share <= 1.0:
+            raise InvalidParameter(f"{name} must be between 0 and 1; got {share}")
     if _starts_at_goal(problem):
         return _without_search(problem, PlanStatus.FINISHED, [problem.start, problem.goal], started)
     if not problem.is_connected:
@@ -124,6 +128,7 @@ def search(
         planner=planner,
         region=None if region is None else _core_region(region, problem),
         exploration=exploration,
+        refinement=refinement,
         limits=_core.Limits(limits.seconds, limits.target_length, limits.max_vertices),
         seed=checked_seed(seed),
         keep_tree=keep_tree,

@@ -121,6 +121,7 @@ class _Searches:
                 self._known.problem,
                 PLANNER,
                 region=region,
+                refinement=0.0,  # nothing but the region
                 limits=self._limits,
                 seed=self._known.seed,
             )

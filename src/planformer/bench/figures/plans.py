@@ -86,6 +86,7 @@ def run(known: BenchProblem, system: str) -> Drawn:
         guide=chosen.guide,
         threshold=chosen.threshold,
         exploration=chosen.exploration,
+        refinement=chosen.refinement,
         time_limit=known.row.seconds,
         target_length=known.target_length,
         seed=known.seed,

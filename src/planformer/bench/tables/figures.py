@@ -24,7 +24,9 @@ _FORMATS = ("png", "svg")
 
 _UNGUIDED = "#7d858f"
 _COLOURS = {
+    "(refined)": "#2f353b",
     "MPT": "#0173b2",
+    "MPT (not refined)": "#6c71c4",
     "MPT (F.E.)": "#56b4e9",
     "MPT (S.E.)": "#a6cee3",
     "UNet": "#de8f05",
@@ -116,11 +118,11 @@ def _outcomes(trials: Sequence[Trial], limit: float) -> Outcomes:
 
 def _parts(system: str) -> tuple[str, str]:
     """Guide and planner of a system; both are the whole name where it has no guide."""
-    bare, _, encoding = system.partition(" (")  # F.E.) or S.E.)
+    bare, _, variant = system.partition(" (")  # F.E.), S.E.), refined) or not refined)
     guide, dash, planner = bare.partition("-")
     if not dash or guide not in _COLOURS:
-        return bare, bare
-    return f"{guide} ({encoding}" if encoding else guide, planner
+        return f"({variant}" if variant else bare, bare
+    return f"{guide} ({variant}" if variant else guide, planner
 
 
 def _limit(folder: Path) -> float:

@@ -121,7 +121,7 @@ def _with_reference(known: BenchProblem, settings: TableSettings) -> BenchProble
     if settings.reference is Reference.BEST:
         return known
     limits = SearchLimits(settings.reference_seconds)
-    found = search(known.problem, "RRTstar", limits=limits, seed=known.seed)
+    found = search(known.problem, "RRTstar", refinement=0.0, limits=limits, seed=known.seed)
     # Without a path of RRT* the problem keeps its own reference.
     return dataclasses.replace(known, reference=found.path) if found.solved else known
 

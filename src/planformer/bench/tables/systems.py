@@ -16,7 +16,7 @@ from planformer.geometry import polyline_length
 from planformer.guidance import RegionProposer, load_network
 from planformer.guidance.onnx import OnnxProposer
 from planformer.guidance.region import PAPER_THRESHOLD
-from planformer.planning import PlanResult, Problem, SearchLimits, path_is_valid, search
+from planformer.planning import REFINEMENT, PlanResult, Problem, SearchLimits, path_is_valid, search
 from planformer.weights import Weights
 
 CORRIDOR = "lazy-theta corridor"
@@ -64,12 +64,14 @@ class GuidedPlanner:
         guide: `CORRIDOR`, the name of shipped weights, or None.
         threshold: As in `OnnxProposer`; by default the one that connects start and goal.
         exploration: Share of the samples drawn from the whole map.
+        refinement: Share of the samples near the best path so far.
     """
 
     planner: str
     guide: str | None = None
     threshold: float | None = None
     exploration: float = 0.0
+    refinement: float = REFINEMENT
 
     def solve(self, problem: Problem, limits: SearchLimits, seed: int) -> Solution:
         """Propose a region if there is a guide, and search."""
@@ -81,6 +83,7 @@ class GuidedPlanner:
             self.planner,
             region=region,
             exploration=self.exploration,
+            refinement=self.refinement,
             limits=limits,
             seed=seed,
         )
@@ -149,12 +152,20 @@ def _astar(problem: Problem, seed: int) -> NDArray[np.float64] | None:
 _EE = 0.5
 """Every other sample from the whole map, as the paper alternates."""
 
+
+def _plain(planner: str, guide: str | None = None) -> GuidedPlanner:
+    return GuidedPlanner(planner, guide, refinement=0.0)
+
+
 POINT_SYSTEMS: dict[str, System] = {
-    "RRT*": GuidedPlanner("RRTstar"),
-    "IRRT*": GuidedPlanner("InformedRRTstar"),
-    "BIT*": GuidedPlanner("BITstar"),
-    "ABIT*": GuidedPlanner("ABITstar"),
-    "AIT*": GuidedPlanner("AITstar"),
+    "RRT*": _plain("RRTstar"),
+    "IRRT*": _plain("InformedRRTstar"),
+    "BIT*": _plain("BITstar"),
+    "ABIT*": _plain("ABITstar"),
+    "AIT*": _plain("AITstar"),
+    "RRT* (refined)": GuidedPlanner("RRTstar"),
+    "IRRT* (refined)": GuidedPlanner("InformedRRTstar"),
+    "BIT* (refined)": GuidedPlanner("BITstar"),
     "UNet-RRT*": GuidedPlanner("RRTstar", "unet", PAPER_THRESHOLD),
     "UNet-RRT*-EE": GuidedPlanner("RRTstar", "unet", PAPER_THRESHOLD, _EE),
     "MPNet": LearnedSystem("MPNet"),
@@ -164,6 +175,7 @@ POINT_SYSTEMS: dict[str, System] = {
         "InformedRRTstar", "mpt-paper-fixed-encoding", PAPER_THRESHOLD
     ),
     "MPT-RRT* (S.E.)": GuidedPlanner("RRTstar", "mpt-paper", PAPER_THRESHOLD),
+    "MPT-RRT* (not refined)": _plain("RRTstar", "mpt"),
     "MPT-RRT*": GuidedPlanner("RRTstar", "mpt"),
     "MPT-IRRT*": GuidedPlanner("InformedRRTstar", "mpt"),
     "MPT-BIT*": GuidedPlanner("BITstar", "mpt"),
@@ -175,13 +187,17 @@ POINT_SYSTEMS: dict[str, System] = {
 }
 """The systems of the tables for point robots, by the paper's names.
 
-F.E. and S.E. are the paper's architecture with fixed and shifted position encoding.
+F.E. and S.E. are the paper's architecture with fixed and shifted position encoding. All guided
+planners refine their path, as `plan` does, but for the one that is called so.
 """
 
 CAR_SYSTEMS: dict[str, System] = {
-    "RRT*": GuidedPlanner("RRTstar"),
-    "IRRT*": GuidedPlanner("InformedRRTstar"),
-    "SST": GuidedPlanner("SST"),
+    "RRT*": _plain("RRTstar"),
+    "IRRT*": _plain("InformedRRTstar"),
+    "SST": _plain("SST"),
+    "RRT* (refined)": GuidedPlanner("RRTstar"),
+    "IRRT* (refined)": GuidedPlanner("InformedRRTstar"),
+    "MPT-RRT* (not refined)": _plain("RRTstar", "mpt-dubins"),
     "MPT-RRT*": GuidedPlanner("RRTstar", "mpt-dubins"),
     "MPT-IRRT*": GuidedPlanner("InformedRRTstar", "mpt-dubins"),
     "MPT-RRT*-EE": GuidedPlanner("RRTstar", "mpt-dubins", exploration=_EE),

@@ -1,0 +1,94 @@
+"""Samples near the best path so far."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from planformer.geometry import wrap_angle
+from planformer.planning import SearchLimits, search
+
+from .conftest import DUBINS, POINT, REEDS_SHEPP, random_problem
+
+REFINING = ["RRTstar", "InformedRRTstar", "SORRTstar", "BITstar", "ABITstar"]
+
+
+def vertices_of(result):
+    return result.tree.vertices
+
+
+def distance_to(path, points):
+    """From each point to the nearest of 200 places on the path."""
+    steps = np.concatenate(([0.0], np.hypot(*np.diff(path[:, :2], axis=0).T).cumsum()))
+    at = np.linspace(0.0, steps[-1], 200)
+    places = np.column_stack([np.interp(at, steps, path[:, axis]) for axis in (0, 1)])
+    return np.linalg.norm(points[:, None, :2] - places, axis=-1).min(axis=1)
+
+
+@pytest.mark.parametrize("planner", REFINING)
+def test_vertices_crowd_all_along_the_best_path(forest, planner):
+    near = {}
+    for refinement in (0.0, 0.5):
+        result = search(
+            random_problem(forest, POINT, 5),
+            planner,
+            refinement=refinement,
+            limits=SearchLimits(60.0, max_vertices=1500),
+            seed=1,
+            keep_tree=True,
+        )
+        close = vertices_of(result)[distance_to(result.path, vertices_of(result)) < 0.1]
+        # In each quarter of the way, so that both ends of the path are where they should be.
+        along = (close[:, :2] - result.path[0]) @ (result.path[-1] - result.path[0])
+        along = along / np.sum((result.path[-1] - result.path[0]) ** 2)
+        near[refinement] = np.histogram(along, bins=4, range=(0.0, 1.0))[0]
+    assert (near[0.5] > 2 * near[0.0] + 5).all(), near
+
+
+@pytest.mark.parametrize("robot", [POINT, DUBINS, REEDS_SHEPP], ids=lambda r: type(r).__name__)
+def test_paths_are_shorter_after_as_many_vertices(forest, robot):
+    ratios = []
+    for number in range(8):
+        plain, refined = (
+            search(
+                random_problem(forest, robot, number),
+                "RRTstar",
+                refinement=refinement,
+                limits=SearchLimits(60.0, max_vertices=600),
+                seed=2,
+            )
+            for refinement in (0.0, 0.5)
+        )
+        if plain.solved and refined.solved:
+            ratios.append(refined.length / plain.length)
+    assert len(ratios) >= 5
+    assert np.median(ratios) < 0.995, ratios
+
+
+def test_a_car_is_sampled_with_the_headings_of_the_path(open_room):
+    aligned = {}
+    for refinement in (0.0, 1.0):
+        result = search(
+            random_problem(open_room, DUBINS, 3),
+            "RRTstar",
+            refinement=refinement,
+            limits=SearchLimits(60.0, max_vertices=800),
+            seed=1,
+            keep_tree=True,
+        )
+        vertices = vertices_of(result)
+        away = np.linalg.norm(vertices[:, None, :2] - result.path[:, :2], axis=-1)
+        turn = wrap_angle(vertices[:, 2] - result.path[away.argmin(axis=1), 2])
+        aligned[refinement] = np.mean(np.abs(turn[away.min(axis=1) < 0.1]) < 0.3)
+    assert aligned[1.0] > max(0.8, 2 * aligned[0.0]), aligned
+
+
+def test_the_first_path_is_the_same(forest):
+    problem = random_problem(forest, POINT, 5)
+    limits = SearchLimits(60.0, target_length=1000.0)
+    plain, refined = (
+        search(problem, "RRTstar", refinement=refinement, limits=limits, seed=3)
+        for refinement in (0.0, 1.0)
+    )
+    assert (plain.path == refined.path).all()
+    assert plain.vertices == refined.vertices
