@@ -16,8 +16,8 @@ namespace {
 
 /// Standard deviations of the samples from the path, as shares of its length. Which of them helps
 /// depends on how good the path is and how narrow its surroundings are.
-constexpr double kFinest = 0.001;
-constexpr double kCoarsest = 0.01;
+constexpr double kFinest = 0.0003;
+constexpr double kCoarsest = 0.003;
 
 bool is_same(const Pose& a, const Pose& b) { return a.x == b.x && a.y == b.y && a.yaw == b.yaw; }
 
