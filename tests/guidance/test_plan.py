@@ -138,6 +138,23 @@ def test_exploration_finds_what_the_region_misses(room):
     assert not solved(0.0)
 
 
+def test_a_plan_refines_its_path_unless_told_not_to(room):
+    def planned(**options):
+        return pf.plan(
+            room.grid,
+            room.robot,
+            room.start,
+            room.goal,
+            planner="RRTstar",
+            max_vertices=600,
+            time_limit=60.0,
+            seed=1,
+            **options,
+        )
+
+    assert planned().length == planned(refinement=0.5).length < planned(refinement=0.0).length
+
+
 def test_guide_none_is_an_unguided_plan(room):
     result = pf.plan(room.grid, room.robot, room.start, room.goal, guide=None, max_vertices=300)
     assert result.region is None

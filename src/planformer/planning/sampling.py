@@ -15,8 +15,7 @@ offset from their anchors are narrower by as much: they lie round a path, not ro
 YAW_DEVIATION = 0.35
 """Standard deviation [rad] of a car's yaw round a heading of unknown certainty."""
 REFINEMENT = 0.5
-"""Share of the samples near the best path so far. Half of them is nearly as good as any share from
-a third to two thirds (docs/performance.md); the other half still finds other ways."""
+"""Share of the samples near the best path so far; the others still find other ways."""
 
 
 @dataclass(frozen=True)
