@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <utility>
 
-#include "core/car_space.hpp"
 #include "core/region.hpp"
 
 namespace planformer {
@@ -24,7 +23,7 @@ bool is_same(const Pose& a, const Pose& b) { return a.x == b.x && a.y == b.y && 
 }  // namespace
 
 Incumbent::Incumbent(const ob::StateSpace& space, const Pose& start, const Pose& goal)
-    : space_(space), start_(start), goal_(goal) {}
+    : space_(space), car_(dynamic_cast<const CarSpace*>(&space)), start_(start), goal_(goal) {}
 
 void Incumbent::improve(const std::vector<const ob::State*>& states, double length) {
     if (!(length < length_)) return;
@@ -51,7 +50,7 @@ std::vector<Pose> Incumbent::from_start_to_goal(std::vector<Pose> states) const 
 }
 
 Curve Incumbent::motion(const Pose& from, const Pose& to) const {
-    if (const auto* car = dynamic_cast<const CarSpace*>(&space_)) return car->curve(from, to);
+    if (car_) return car_->curve(from, to);
     const double dx = to.x - from.x;
     const double dy = to.y - from.y;
     Curve straight({from.x, from.y, std::atan2(dy, dx)});
@@ -70,9 +69,8 @@ Pose Incumbent::sample_on(ompl::RNG& rng) const {
 Pose Incumbent::sample_near(ompl::RNG& rng) const {
     const Pose pose = sample_on(rng);
     const double deviation = length_ * kFinest * std::pow(kCoarsest / kFinest, rng.uniform01());
-    const auto* car = dynamic_cast<const CarSpace*>(&space_);
     // So far a car turns while it moves aside.
-    const double yaw_deviation = car ? deviation / car->turning_radius() : 0.0;
+    const double yaw_deviation = car_ ? deviation / car_->turning_radius() : 0.0;
     return {rng.gaussian(pose.x, deviation), rng.gaussian(pose.y, deviation),
             rng.gaussian(pose.yaw, yaw_deviation)};
 }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/car_space.hpp"
 #include "core/curve.hpp"
 
 namespace planformer {
@@ -41,6 +42,7 @@ private:
     Pose sample_on(ompl::RNG& rng) const;
 
     const ompl::base::StateSpace& space_;
+    const CarSpace* car_;  ///< the space of a car; null for a point
     Pose start_;
     Pose goal_;
     std::vector<Pose> states_;

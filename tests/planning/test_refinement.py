@@ -5,24 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from planformer.geometry import wrap_angle
+from planformer.geometry import distance_to_polyline, wrap_angle
 from planformer.planning import SearchLimits, search
 
 from .conftest import DUBINS, POINT, REEDS_SHEPP, random_problem
 
 REFINING = ["RRTstar", "InformedRRTstar", "SORRTstar", "BITstar", "ABITstar"]
-
-
-def vertices_of(result):
-    return result.tree.vertices
-
-
-def distance_to(path, points):
-    """From each point to the nearest of 200 places on the path."""
-    steps = np.concatenate(([0.0], np.hypot(*np.diff(path[:, :2], axis=0).T).cumsum()))
-    at = np.linspace(0.0, steps[-1], 200)
-    places = np.column_stack([np.interp(at, steps, path[:, axis]) for axis in (0, 1)])
-    return np.linalg.norm(points[:, None, :2] - places, axis=-1).min(axis=1)
 
 
 @pytest.mark.parametrize("planner", REFINING)
@@ -37,7 +25,8 @@ def test_vertices_crowd_all_along_the_best_path(forest, planner):
             seed=1,
             keep_tree=True,
         )
-        close = vertices_of(result)[distance_to(result.path, vertices_of(result)) < 0.1]
+        vertices = result.tree.vertices
+        close = vertices[distance_to_polyline(vertices, result.path) < 0.1]
         # In each quarter of the way, so that both ends of the path are where they should be.
         along = (close[:, :2] - result.path[0]) @ (result.path[-1] - result.path[0])
         along = along / np.sum((result.path[-1] - result.path[0]) ** 2)
@@ -76,7 +65,7 @@ def test_a_car_is_sampled_with_the_headings_of_the_path(open_room):
             seed=1,
             keep_tree=True,
         )
-        vertices = vertices_of(result)
+        vertices = result.tree.vertices
         away = np.linalg.norm(vertices[:, None, :2] - result.path[:, :2], axis=-1)
         turn = wrap_angle(vertices[:, 2] - result.path[away.argmin(axis=1), 2])
         aligned[refinement] = np.mean(np.abs(turn[away.min(axis=1) < 0.1]) < 0.3)
