@@ -59,7 +59,7 @@ def test_a_row_without_trials_is_refused():
     ("file", "content"),
     [
         ("problems.csv.gz", b"text"),
-        ("problems.csv.gz", gzip.compress(b"a,b\n1,2\n")),
+        ("problems.csv.gz", gzip.compress(b"a,b\n1,2\n", mtime=0)),
         ("problems.csv.gz", None),
         ("summary.json", b"{}"),
         ("summary.json", b"[1]"),
