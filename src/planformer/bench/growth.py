@@ -17,7 +17,7 @@ from planformer.bench.reporting import (
     interval_cell,
     markdown_table,
     millisecond_cell,
-    session_line,
+    session_lines,
     write_summary,
 )
 from planformer.bench.statistics import median_of, percent_of
@@ -142,8 +142,9 @@ def markdown(summary: Mapping[str, Any]) -> str:
         f"the path is at most {SLACK} times the shortest; failures count with {SECONDS:.0f} s. "
         "Peak: resident memory of the process that ran all systems up to this size."
     )
-    sessions = [f"- {session_line(session)}" for session in summary["sessions"]]
-    return "\n".join([markdown_table(header, rows), "", caption, "", *sessions]) + "\n"
+    return (
+        "\n".join([markdown_table(header, rows), "", caption, "", *session_lines(summary)]) + "\n"
+    )
 
 
 def plot(summary: Mapping[str, Any]) -> Figure:

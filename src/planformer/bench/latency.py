@@ -14,7 +14,7 @@ from planformer.bench.environment import environment
 from planformer.bench.reporting import (
     markdown_table,
     millisecond_cell,
-    session_line,
+    session_lines,
     write_summary,
 )
 from planformer.bench.rows import Row, chosen_rows
@@ -149,9 +149,10 @@ def markdown(summary: Mapping[str, Any]) -> str:
     lines = summary["lines"]
     header = ["ms", *(f"{line['row']}, {line['problems']} problems" for line in lines)]
     rows = [[meaning, *(_cell(line, stage) for line in lines)] for stage, meaning in STAGES.items()]
-    sessions = [f"- {session_line(session)}" for session in summary["sessions"]]
     caption = "Medians with 95 % intervals; 90th percentiles after the slash."
-    return "\n".join([markdown_table(header, rows), "", caption, "", *sessions]) + "\n"
+    return (
+        "\n".join([markdown_table(header, rows), "", caption, "", *session_lines(summary)]) + "\n"
+    )
 
 
 def _cell(line: Mapping[str, Any], stage: str) -> str:

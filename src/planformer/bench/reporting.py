@@ -100,10 +100,14 @@ def causes_line(causes: Mapping[str, int]) -> str:
     return ", ".join(f"{cause} {count}" for cause, count in causes.items())
 
 
-def session_line(session: Mapping[str, Any]) -> str:
-    """How something was measured, in a line."""
+def session_lines(summary: Mapping[str, Any]) -> list[str]:
+    """How the sessions of a summary measured, as a list in Markdown without repetitions."""
+    return list(dict.fromkeys(_session_line(session) for session in summary["sessions"]))
+
+
+def _session_line(session: Mapping[str, Any]) -> str:
     return (
-        f"`{session['command']}`, {session['date']}, commit {session['commit']}, planformer "
+        f"- `{session['command']}`, {session['date']}, commit {session['commit']}, planformer "
         f"{session['planformer']}, OMPL {session['ompl']}, {session['cores']} cores of "
         f"{session['cpu']}"
     )

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from planformer.bench.environment import environment
-from planformer.bench.reporting import markdown_table, session_line, write_summary
+from planformer.bench.reporting import markdown_table, session_lines, write_summary
 from planformer.data.problems import random_problems
 from planformer.errors import InvalidParameter
 from planformer.maps import OccupancyGrid, generate_forest
@@ -125,5 +125,4 @@ def markdown(summary: Mapping[str, Any]) -> str:
         ]
         for line in summary["lines"]
     ]
-    sessions = [f"- {session_line(session)}" for session in summary["sessions"]]
-    return "\n".join([markdown_table(header, rows), "", *sessions]) + "\n"
+    return "\n".join([markdown_table(header, rows), "", *session_lines(summary)]) + "\n"

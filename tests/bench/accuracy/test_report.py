@@ -27,6 +27,16 @@ def test_the_table_has_every_line_and_what_failed(summary, tmp_path):
     assert "- small, ideal, fixed threshold: vertex limit 2" in lines
 
 
+def test_sessions_that_are_alike_are_told_once(summary):
+    other = {**summary["sessions"][0], "date": "2001-02-03"}
+    twice = {**summary, "sessions": [*summary["sessions"] * 2, other]}
+    lines = markdown(twice).splitlines()
+    assert [line for line in lines if line not in markdown(summary).splitlines()] == [
+        line for line in lines if "2001-02-03" in line
+    ]
+    assert sum("OMPL" in line for line in lines) == 2
+
+
 def test_all_records_are_kept(summary, tmp_path):
     packed = (tmp_path / "out" / "problems.csv.gz").read_bytes()
     assert [r.problem for r in from_csv(gzip.decompress(packed).decode(), Record)] == [0, 1]

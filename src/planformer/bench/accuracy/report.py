@@ -11,7 +11,7 @@ from planformer.bench.reporting import (
     causes_line,
     interval_cell,
     markdown_table,
-    session_line,
+    session_lines,
     write_files,
 )
 from planformer.bench.rows import Row
@@ -56,7 +56,7 @@ def markdown(summary: Mapping[str, Any]) -> str:
     lines = summary["lines"]
     rows = (table_cells(line, COLUMNS, intervals=True) for line in lines)
     text = [markdown_table(["maps", "guide", "threshold", "problems", *COLUMNS], rows)]
-    text += ["", *(f"- {session_line(session)}" for session in summary["sessions"])]
+    text += ["", *session_lines(summary)]
     failures = [
         f"- {line['row']}, {line['guide']}, {line['threshold']} threshold: "
         + causes_line(line["causes"])

@@ -9,7 +9,7 @@ from planformer.bench.reporting import (
     causes_line,
     interval_cell,
     markdown_table,
-    session_line,
+    session_lines,
     write_files,
 )
 from planformer.bench.rows import Row
@@ -128,7 +128,7 @@ def markdown(summary: Mapping[str, Any]) -> str:
     """A Markdown table for each row, how they were measured, and what failed."""
     lines = summary["lines"]
     parts = _tables(lines, COLUMNS, intervals=True)
-    parts += [f"- {session_line(session)}" for session in summary["sessions"]]
+    parts += session_lines(summary)
     failures = [
         f"- {line['row']}, {line['system']}: {causes_line(line['causes'])}"
         for line in lines
