@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 import planformer as pf
 from planformer.encoding import NetworkScale, QueryKind, encode_query, encode_windows, network_map
-from planformer.encoding.window import MARGIN, TILE, Window, whole_map, windows_round
+from planformer.encoding.window import MARGIN, TILE, Window, stitch, whole_map, windows_round
 
 SCALE = NetworkScale(offsets=True)
 SIDE = SCALE.stride // SCALE.query_stride
@@ -38,9 +38,8 @@ def test_nothing_that_matters_gives_no_window():
 def test_tiles_hold_all_that_matters_and_little_else(places):
     windows = windows_round(_tokens((120, 90), *places), SCALE)
     kept = np.zeros((1, 120, 90))
-    for window in windows:
-        assert max(window.shape) <= TILE + 2 * MARGIN
-        window.paste(np.ones((1, *window.shape)), kept)
+    assert all(max(window.shape) <= TILE + 2 * MARGIN for window in windows)
+    stitch([(window, np.ones((1, *window.shape))) for window in windows], kept)
     assert all(kept[0, row, col] for row, col in places)
     assert len(windows) <= len(places)
 
@@ -51,12 +50,25 @@ def test_cut_and_paste():
     assert (window.cut(values, 1) == values[:, 1:6, 2:7]).all()
     assert (Window(slice(1, 3), slice(0, 2)).cut(values, 2) == values[:, 2:6, 0:4]).all()
     whole = np.zeros((1, 6, 8))
-    window.paste(window.cut(values, 1), whole)
+    stitch([(window, window.cut(values, 1))], whole)
     # The outermost tokens count only at the map's own edge, which is the last row here.
     assert (whole[:, 2:6, 3:6] == values[:, 2:6, 3:6]).all()
     assert not whole[:, :2].any()
     assert not whole[:, :, :3].any()
     assert not whole[:, :, 6:].any()
+
+
+def test_no_margin_replaces_what_another_window_is_about():
+    """In whatever order the windows come."""
+    first, second = windows_round(
+        _tokens((60, 90), (5, 5), (5, 5 + TILE - 1), (5, 5 + TILE)), SCALE
+    )
+    assert first.cols.stop > second.cols.start + 2 * MARGIN - 1  # they overlap
+    parts = [(window, np.full((1, *window.shape), i)) for i, window in enumerate((first, second))]
+    for order in (parts, parts[::-1]):
+        whole = np.full((1, 60, 90), -1)
+        stitch(order, whole)
+        assert whole[0, 5, 5 : 5 + TILE + 1].tolist() == [0] * TILE + [1]
 
 
 @pytest.mark.parametrize("kind", list(QueryKind))

@@ -17,7 +17,7 @@ from planformer.errors import InvalidResults
 from planformer.files import whole_file
 
 MANIFEST = "bench.json"
-FORMAT = 1
+FORMAT = 2
 """Raised when the rows, what is measured, or the files change."""
 _PART = 4
 """Problems in a part: what a kill can cost."""

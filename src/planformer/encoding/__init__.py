@@ -11,11 +11,13 @@ from planformer.encoding.anchors import (
 from planformer.encoding.query import encode_query, encode_windows
 from planformer.encoding.raster import network_map
 from planformer.encoding.scale import NetworkScale, QueryKind
+from planformer.encoding.window import Window, stitch
 
 __all__ = [
     "LABEL_DISTANCE",
     "NetworkScale",
     "QueryKind",
+    "Window",
     "anchor_headings",
     "anchor_labels",
     "anchor_offsets",
@@ -24,4 +26,5 @@ __all__ = [
     "encode_windows",
     "network_map",
     "region_mask",
+    "stitch",
 ]

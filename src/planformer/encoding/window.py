@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -19,7 +20,8 @@ MARGIN = 2
 the largest change on a map), with none by 0.1; the region has the same size either way."""
 
 _KEPT = 1
-"""Tokens of the margin whose prediction counts, for a path may pass there as well."""
+"""Tokens of the margin whose prediction counts where no window is about them, for a path may pass
+there as well."""
 
 
 @dataclass(frozen=True)
@@ -44,14 +46,13 @@ class Window:
         rows, cols = (slice(side * part.start, side * part.stop) for part in (self.rows, self.cols))
         return np.ascontiguousarray(values[..., rows, cols])
 
-    def paste(self, values: NDArray[Any], whole: NDArray[Any]) -> None:
+    def paste(self, values: NDArray[Any], whole: NDArray[Any], kept: int) -> None:
         """Write values (..., h, w) of the window to an array (..., H, W) of the map's tokens.
 
-        Tokens at an edge that is not the map's are left out: they were predicted without knowing
-        what lies beyond.
+        Of the margin at an edge that is not the map's only `kept` tokens are written.
         """
         rows, cols = (
-            _inner(part, tokens)
+            _inner(part, tokens, kept)
             for part, tokens in zip((self.rows, self.cols), whole.shape[-2:], strict=True)
         )
         inside = values[
@@ -60,6 +61,17 @@ class Window:
             cols.start - self.cols.start : cols.stop - self.cols.start,
         ]
         whole[..., rows, cols] = inside
+
+
+def stitch(parts: Sequence[tuple[Window, NDArray[Any]]], whole: NDArray[Any]) -> None:
+    """Write the values (..., h, w) of windows to an array (..., H, W) of the map's tokens.
+
+    Tokens at the edge of a window were predicted knowing little of what lies beyond, so that they
+    never replace what another window is about.
+    """
+    for kept in (_KEPT, 0):
+        for window, values in parts:
+            window.paste(values, whole, kept)
 
 
 def whole_map(shape: tuple[int, ...], scale: NetworkScale) -> Window:
@@ -107,9 +119,9 @@ def _widened(part: slice, tokens: int) -> slice:
     return slice(max(part.start - MARGIN, 0), min(part.stop + MARGIN, tokens))
 
 
-def _inner(part: slice, tokens: int) -> slice:
-    """Without the tokens of the margin that do not count, along one axis."""
-    beyond = MARGIN - _KEPT
+def _inner(part: slice, tokens: int, kept: int) -> slice:
+    """With `kept` tokens of the margin, along one axis."""
+    beyond = MARGIN - kept
     first = part.start and part.start + beyond
     last = part.stop if part.stop == tokens else part.stop - beyond
     return slice(first, last)

@@ -12,7 +12,7 @@ import numpy as np
 import onnxruntime
 from numpy.typing import NDArray
 
-from planformer.encoding import NetworkScale, encode_windows, network_map
+from planformer.encoding import NetworkScale, Window, encode_windows, network_map, stitch
 from planformer.errors import InvalidParameter, InvalidWeights, WeightsMismatch
 from planformer.guidance.region import Region, make_region
 from planformer.guidance.weights import scale_of, weights_path
@@ -84,14 +84,17 @@ class OnnxNetwork:
         scale = self.scale
         pixels = network_map(problem.blocked, problem.grid.resolution, scale)
         tokens = [size // scale.stride for size in pixels.shape]
-        outputs = [np.zeros((channels, *tokens), np.float32) for channels in self._output_channels]
         ends = problem.local_start, problem.local_goal
+        parts: list[list[tuple[Window, NDArray[np.float32]]]] = [[] for _ in self._output_channels]
         for window, query in encode_windows(pixels, *ends, scale):
             seen = window.cut(pixels, scale.stride)
             predicted = self._run({"map": seen[None, None], "query": query[None]})
             self._check(predicted, window.shape)
-            for whole, part in zip(outputs, predicted, strict=True):
-                window.paste(part[0], whole)
+            for of_output, values in zip(parts, predicted, strict=True):
+                of_output.append((window, values[0]))
+        outputs = [np.zeros((channels, *tokens), np.float32) for channels in self._output_channels]
+        for of_output, whole in zip(parts, outputs, strict=True):
+            stitch(of_output, whole)
         return outputs
 
     @property

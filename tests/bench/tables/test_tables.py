@@ -13,6 +13,7 @@ from planformer.bench.tables.systems import (
     CAR_SYSTEMS,
     POINT_SYSTEMS,
     GridSearch,
+    GuidedPlanner,
     fingerprints,
 )
 from planformer.errors import InvalidParameter, InvalidResults
@@ -107,6 +108,14 @@ def test_a_table_is_completed_and_other_settings_are_refused(tmp_path):
         changed = dataclasses.replace(settings, **other)
         with pytest.raises(InvalidResults, match=next(iter(other))):
             run_table(tmp_path / "t", "table3", problems=1, settings=changed)
+
+
+def test_results_of_a_system_that_was_another_are_refused(tmp_path, monkeypatch):
+    settings = TableSettings(slack=1.2, seconds=60.0, systems=("IRRT*",))
+    run_table(tmp_path / "t", "table1", problems=1, settings=settings)
+    monkeypatch.setitem(POINT_SYSTEMS, "IRRT*", GuidedPlanner("InformedRRTstar"))
+    with pytest.raises(InvalidResults, match="definitions"):
+        run_table(tmp_path / "t", "table1", problems=1, settings=settings)
 
 
 @pytest.mark.parametrize(

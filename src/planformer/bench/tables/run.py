@@ -18,7 +18,7 @@ from planformer.bench.tables.figures import write_figures
 from planformer.bench.tables.measure import TableSettings, lost_trials, measure_problem
 from planformer.bench.tables.record import Trial
 from planformer.bench.tables.report import write_report
-from planformer.bench.tables.systems import fingerprints
+from planformer.bench.tables.systems import definitions, fingerprints
 from planformer.errors import InvalidParameter
 
 TABLES: Mapping[str, tuple[str, ...]] = MappingProxyType(
@@ -106,6 +106,7 @@ def _manifest(
         "benchmark": table,
         "planformer": planformer.__version__,
         **asdict(settings),
+        "definitions": definitions(systems),
         "weights": fingerprints(systems.values()),
         "workers": workers,
         **machine(),

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import asdict, dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -205,6 +206,14 @@ CAR_SYSTEMS: dict[str, System] = {
     "Hybrid-A*": GridSearch(HybridAstarExpert().solve),
 }
 """The systems of the table for the car."""
+
+
+def definitions(systems: Mapping[str, System]) -> dict[str, dict[str, Any]]:
+    """What systems are made of, by their names; a search on the grid has no settings."""
+    return {
+        name: {} if isinstance(system, GridSearch) else asdict(system)
+        for name, system in systems.items()
+    }
 
 
 def fingerprints(systems: Iterable[System]) -> dict[str, str]:
