@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -25,20 +27,52 @@ def test_a_failed_write_leaves_the_old_file(tmp_path, error):
 
 
 def test_what_a_killed_process_left_can_be_removed(tmp_path):
-    (tmp_path / "kept.tmp").touch()
-    with whole_file(tmp_path / "file") as file:  # as good as killed: it never ends
-        assert len(list(tmp_path.iterdir())) == 2
+    killed = f"""
+import os, pathlib, signal
+from planformer.files import whole_file
+with whole_file(pathlib.Path({str(tmp_path)!r}, "lost")):
+    os.kill(os.getpid(), signal.SIGKILL)
+"""
+    for name in ("kept.tmp", ".kept.tmp", ".kept.x.tmp"):
+        (tmp_path / name).touch()
+    subprocess.run([sys.executable, "-c", killed], check=False)
+    with whole_file(tmp_path / "file") as file:
+        assert len(list(tmp_path.iterdir())) == 5
         remove_unfinished(tmp_path)
-        assert [p.name for p in tmp_path.iterdir()] == ["kept.tmp"]
-        (tmp_path / Path(file.name).name).touch()
+        written = Path(file.name).name
+        names = {path.name for path in tmp_path.iterdir()}
+    assert names == {"kept.tmp", ".kept.tmp", ".kept.x.tmp", written}
 
 
-def test_several_files_are_replaced_only_together(tmp_path):
-    first, blocked = tmp_path / "first", tmp_path / "folder"
-    first.write_bytes(b"old")
-    blocked.mkdir()
-    (blocked / "inside").touch()
-    with pytest.raises(InvalidParameter, match="folder"):
-        write_files({first: b"new", blocked / "inside" / "file": b"new"})
-    assert first.read_bytes() == b"old"
-    assert {p.name for p in tmp_path.iterdir()} == {"first", "folder"}
+@pytest.mark.parametrize("order", [1, -1])
+@pytest.mark.parametrize("bad", ["folder", "file/inside"])
+def test_several_files_are_replaced_only_together(tmp_path, bad, order):
+    (tmp_path / "folder").mkdir()
+    (tmp_path / "file").touch()
+    good = tmp_path / "good"
+    good.write_bytes(b"old")
+    contents = {good: b"new", tmp_path / bad: b"new"}
+    with pytest.raises(InvalidParameter, match=bad):
+        write_files(dict([*contents.items()][::order]))
+    assert good.read_bytes() == b"old"
+    assert {path.name for path in tmp_path.iterdir()} == {"good", "folder", "file"}
+
+
+def test_no_file_is_replaced_before_all_are_on_the_disk(tmp_path):
+    """A limit of 4,000 bytes a file stands for a full disk."""
+    limited = f"""
+import pathlib, resource, signal
+from planformer.files import write_files
+signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+resource.setrlimit(resource.RLIMIT_FSIZE, (4000, 4000))
+folder = pathlib.Path({str(tmp_path)!r})
+write_files({{folder / "large": bytes(5000), folder / "small": b"new"}})
+"""
+    for name in ("large", "small"):
+        (tmp_path / name).write_bytes(b"old")
+    ended = subprocess.run([sys.executable, "-c", limited], check=False, capture_output=True)
+    assert b"cannot be written: File too large" in ended.stderr
+    assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == {
+        "large": b"old",
+        "small": b"old",
+    }

@@ -129,7 +129,7 @@ class TooLarge(RequestRefused):
 
 
 class StoreFull(RequestRefused):
-    """The service's folder holds as many maps as it may."""
+    """The service's folder holds as many maps as it may, or cannot be written to."""
 
 
 class Busy(RequestRefused):

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import errno
 import os
+import re
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import BinaryIO
 
 from planformer.errors import InvalidParameter
+
+_UNFINISHED = re.compile(r"\..+\.(\d+)\.tmp")
+"""Name of a file that a process is writing, with the process's number."""
 
 
 @contextmanager
@@ -18,12 +23,10 @@ def whole_file(path: Path) -> Iterator[BinaryIO]:
     The content goes to a file of another name in the same folder, which is renamed at the end
     and removed when the block raises, also on Ctrl-C.
     """
-    temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
+    temporary = _temporary(path)
     try:
-        with temporary.open("wb") as file:
+        with _on_disk(temporary) as file:
             yield file
-            file.flush()
-            os.fsync(file.fileno())  # a rename that outlives a power cut must not outrun the data
         temporary.replace(path)
     finally:
         temporary.unlink(missing_ok=True)
@@ -31,12 +34,16 @@ def whole_file(path: Path) -> Iterator[BinaryIO]:
 
 def remove_unfinished(folder: Path) -> None:
     """Remove what processes that were killed have left of files that they were writing."""
-    for leftover in folder.glob(".*.tmp"):
-        leftover.unlink(missing_ok=True)
+    for file in folder.iterdir():
+        unfinished = _UNFINISHED.fullmatch(file.name)
+        if unfinished and not _runs(int(unfinished[1])):
+            file.unlink(missing_ok=True)
 
 
 def write_files(contents: Mapping[Path, bytes]) -> None:
-    """Write several files; none is replaced before all have been written.
+    """Write several files; none is replaced before the contents of all are on the disk.
+
+    They are replaced in their order, so one that names the others comes last.
 
     Raises:
         InvalidParameter: A file cannot be written.
@@ -44,7 +51,36 @@ def write_files(contents: Mapping[Path, bytes]) -> None:
     try:
         with ExitStack() as stack:
             for path, content in contents.items():
-                stack.enter_context(whole_file(path)).write(content)
+                if path.is_dir():
+                    raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
+                stack.callback(_temporary(path).unlink, missing_ok=True)
+                with _on_disk(_temporary(path)) as file:
+                    file.write(content)
+            for path in contents:
+                _temporary(path).replace(path)
     except OSError as error:
         names = ", ".join(map(str, contents))
         raise InvalidParameter(f"{names}: cannot be written: {error.strerror or error}") from error
+
+
+def _temporary(path: Path) -> Path:
+    return path.with_name(f".{path.name}.{os.getpid()}.tmp")
+
+
+@contextmanager
+def _on_disk(path: Path) -> Iterator[BinaryIO]:
+    """Open a file for writing whose content is on the disk when the block ends."""
+    with path.open("wb") as file:
+        yield file
+        file.flush()
+        os.fsync(file.fileno())  # a rename that outlives a power cut must not outrun the data
+
+
+def _runs(process: int) -> bool:
+    try:
+        os.kill(process, 0)
+    except (ProcessLookupError, OverflowError):
+        return False
+    except PermissionError:  # it is another user's
+        return True
+    return True

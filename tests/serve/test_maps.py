@@ -153,12 +153,14 @@ def test_a_folder_s_own_maps_are_offered_and_not_deleted(make_server, room, tmp_
     pf.save_map(room, tmp_path / "depot.yaml")
     (tmp_path / "arena.map").write_bytes(MOVINGAI)
     (tmp_path / "broken.png").write_bytes(b"no picture")
+    (tmp_path / "depot.json").write_text('{"name": "of something else"}')
+    before = {path.name for path in tmp_path.iterdir()}
     client = make_server(folder=tmp_path)
     maps = {info["name"]: info["id"] for info in client.get("/maps").json()}
     assert set(maps) == {"depot", "arena"}
     refused = client.delete(f"/maps/{maps['depot']}")
     assert (refused.status_code, refused.json()["error"]) == (403, "RequestRefused")
-    assert (tmp_path / "depot.yaml").is_file()
+    assert {path.name for path in tmp_path.iterdir()} == before
 
 
 def test_a_file_that_has_changed_is_no_longer_the_map(make_server, room, tmp_path):
@@ -167,6 +169,16 @@ def test_a_file_that_has_changed_is_no_longer_the_map(make_server, room, tmp_pat
     arena = client.get("/maps").json()[0]["id"]
     (tmp_path / "arena.map").write_bytes(MOVINGAI.replace(b"..", b".@"))
     assert client.get(f"/maps/{arena}").json()["error"] == "UnknownMap"
+
+
+def test_a_folder_that_cannot_be_written_to_takes_no_map(make_server, room_files, tmp_path):
+    folder = tmp_path / "maps"
+    client = make_server(folder=folder)
+    folder.rmdir()
+    refused = client.post("/maps", files=room_files)
+    assert (refused.status_code, refused.json()["error"]) == (507, "StoreFull")
+    folder.mkdir()
+    assert client.post("/maps", files=room_files).status_code in (200, 201)
 
 
 def test_a_full_folder_takes_no_more(make_server, room_files, tmp_path):

@@ -7,7 +7,7 @@ import logging
 from pathlib import Path
 
 from planformer.errors import InvalidParameter, PlanformerError, StoreFull
-from planformer.files import remove_unfinished, whole_file
+from planformer.files import remove_unfinished, write_files
 from planformer.maps import load_map, save_map
 from planformer.maps.folder import map_files, picture_of
 from planformer.serve.responses import MapInfo
@@ -48,8 +48,7 @@ class MapFolder:
         """Write a map, unless it is here already.
 
         Raises:
-            StoreFull: The folder holds as many maps as it may.
-            InvalidParameter: A file cannot be written.
+            StoreFull: The folder holds as many maps as it may, or cannot be written to.
         """
         info = served.info
         if info.id in self.infos:
@@ -57,9 +56,12 @@ class MapFolder:
         if len(self.infos) >= self._settings.maps:
             raise StoreFull(f"the folder holds {self._settings.maps} maps already; delete some")
         file = self._path / f"{info.id}.yaml"
-        with whole_file(_mark(file)) as mark:
-            mark.write(json.dumps({"name": served.name}).encode())
-        save_map(served.grid, file)
+        try:
+            write_files({_mark(file): json.dumps({"name": served.name}).encode()})
+            save_map(served.grid, file)
+        except InvalidParameter as error:
+            _mark(file).unlink(missing_ok=True)
+            raise StoreFull(f"the folder takes no map: {error}") from error
         self._files[info.id], self.infos[info.id] = file, info
 
     def load(self, map_id: str) -> ServedMap | None:
@@ -73,7 +75,7 @@ class MapFolder:
     def remove(self, map_id: str) -> bool:
         """Remove a map's files; False if they are not the service's own."""
         file = self._files[map_id]
-        if not _mark(file).is_file():
+        if not self._is_own(file, map_id):
             return False
         for name in (file, file.with_suffix(".pgm"), _mark(file)):
             name.unlink(missing_ok=True)
@@ -99,7 +101,14 @@ class MapFolder:
         if grid.occupied.size > self._settings.map_cells:
             _log.warning("%s is left out: it has %d cells", file, grid.occupied.size)
             return None
-        return ServedMap(_name(file), grid)
+        served = ServedMap(file.stem, grid)
+        if self._is_own(file, served.info.id):
+            served = ServedMap(_name(file), grid)
+        return served
+
+    def _is_own(self, file: Path, map_id: str) -> bool:
+        """Whether the service has written a file: no other one has a name that tells its content."""
+        return file == self._path / f"{map_id}.yaml" and _mark(file).is_file()
 
 
 def _mark(file: Path) -> Path:
@@ -107,7 +116,7 @@ def _mark(file: Path) -> Path:
 
 
 def _name(file: Path) -> str:
-    """The name under which the service saved a map, else the file's."""
+    """The name under which the service saved a map; the file's if that is damaged."""
     try:
         return str(json.loads(_mark(file).read_text(encoding="utf-8"))["name"])
     except (OSError, ValueError, TypeError, KeyError):
