@@ -59,7 +59,7 @@ Answer run_plan(const BlockedArray& blocked, double resolution, const RobotModel
                 const std::array<double, 3>& start, const std::array<double, 3>& goal,
                 const std::string& planner, const Region* region, double exploration,
                 double refinement, const Limits& limits, std::uint32_t seed, bool keep_tree,
-                const Cancellation* cancellation, Progress* progress) {
+                const Cancellation* cancellation, Progress* progress, bool handle_signals) {
     Query query;
     query.free_space = free_space_of(blocked, resolution);
     query.robot = robot;
@@ -76,7 +76,9 @@ Answer run_plan(const BlockedArray& blocked, double resolution, const RobotModel
     query.cancellation = cancellation;
     query.progress = progress;
     bool interrupted = false;
-    query.interrupted = [&interrupted] { return interrupted = python_interrupted(); };
+    if (handle_signals) {
+        query.interrupted = [&interrupted] { return interrupted = python_interrupted(); };
+    }
     Answer answer;
     {
         const nb::gil_scoped_release release;
@@ -183,6 +185,7 @@ void register_planning(nb::module_& m) {
           nb::arg("region") = nb::none(), nb::arg("exploration") = 0.0, nb::arg("refinement") = 0.0,
           nb::arg("limits"), nb::arg("seed"), nb::arg("keep_tree") = false,
           nb::arg("cancellation") = nb::none(), nb::arg("progress") = nb::none(),
+          nb::arg("handle_signals") = false,
           "Plan in the map's local frame; see planformer.planning.search.");
     m.def("planner_names", &planner_names, nb::arg("robot"));
     m.def(

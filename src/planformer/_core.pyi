@@ -123,6 +123,7 @@ def plan(
     keep_tree: bool = False,
     cancellation: Cancellation | None = None,
     progress: Progress | None = None,
+    handle_signals: bool = False,
 ) -> Answer: ...
 def planner_names(robot: RobotKind) -> list[str]: ...
 def segment_is_free(

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
 from typing import Any
 
 from planformer.api import plan, propose_region
 from planformer.errors import UnknownGuide
 from planformer.guidance import AUTO, Region, RegionProposer, resolve_guide
 from planformer.maps import OccupancyGrid
-from planformer.planning import PlanResult
+from planformer.planning import CancelToken, PlanResult
 from planformer.processes import cores
 from planformer.robots import Robot
 
@@ -88,17 +88,18 @@ class MapSession:
             The results, in the order of the queries.
 
         Raises:
-            PlanformerError: Of the first query that raises one.
+            PlanformerError: Of the first query that fails; it ends the others.
         """
         grid = self._grid
         grid.components(self._robot.radius)  # once, before the threads ask for it
+        others = CancelToken()
+        options = {"guide": self._guide, "cancel": others, **options}
         with ThreadPoolExecutor(workers or cores()) as pool:
-            plans = [
-                pool.submit(plan, grid, self._robot, *ends, guide=self._guide, **options)
-                for ends in queries
-            ]
             try:
-                return [future.result() for future in plans]
-            finally:  # after an error or Ctrl-C those that have not begun need not
-                for future in plans:
-                    future.cancel()
+                plans = [pool.submit(plan, grid, self._robot, *ends, **options) for ends in queries]
+                done, _ = wait(plans, return_when=FIRST_EXCEPTION)
+                return [future.result() for future in plans if future in done]
+            except BaseException:  # an error or Ctrl-C: nobody waits for the other plans
+                others.cancel()
+                pool.shutdown(wait=False, cancel_futures=True)
+                raise

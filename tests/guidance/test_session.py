@@ -66,3 +66,18 @@ def test_what_is_wrong_is_told_at_once(forest):
     queries = [*_queries(forest, 3), ((-1.0, 0.0), (1.0, 1.0))]
     with pytest.raises(pf.PlanformerError, match="outside the map"):
         session.plan_all(queries, max_vertices=50)
+
+
+@pytest.mark.parametrize("bad", [None, ((-1.0, 0.0), (1.0, 1.0))])
+def test_a_query_that_fails_ends_the_others(forest, bad):
+    session = pf.MapSession(forest, ROBOT, guide=None)
+    endless = {"time_limit": 3600.0, "target_length": 0.01}
+    with pytest.raises((TypeError, pf.PlanformerError), match=r"iterable|outside the map"):
+        session.plan_all([*_queries(forest, 3), bad], workers=4, **endless)
+
+
+def test_all_queries_can_be_cancelled(forest):
+    token = pf.CancelToken()
+    token.cancel()
+    results = pf.MapSession(forest, ROBOT).plan_all(_queries(forest, 3), cancel=token)
+    assert [result.status.value for result in results] == ["cancelled"] * 3

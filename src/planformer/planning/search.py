@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import threading
 import time
 from dataclasses import dataclass
 from numbers import Integral
@@ -134,6 +135,8 @@ def search(
         keep_tree=keep_tree,
         cancellation=cancel,
         progress=None if progress is None else progress.begin(problem),
+        # Ctrl-C reaches the main thread alone; others would only wait for each other's Python.
+        handle_signals=threading.current_thread() is threading.main_thread(),
     )
     return _to_result(answer, problem, preparation, keep_tree=keep_tree)
 

@@ -107,7 +107,7 @@ class MapFolder:
         return served
 
     def _is_own(self, file: Path, map_id: str) -> bool:
-        """Whether the service has written a file: no other one has a name that tells its content."""
+        """Whether the service has written a file: no other name tells a content."""
         return file == self._path / f"{map_id}.yaml" and _mark(file).is_file()
 
 
