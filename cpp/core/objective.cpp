@@ -49,11 +49,13 @@ bool RegionInformedSampler::draw(double min_cost, double max_cost, Pose* pose) {
     if (bounded) ellipse_->setTransverseDiameter(max_cost);
     const bool explore = guidance_.exploration > 0.0 && rng_.uniform01() < guidance_.exploration;
     const bool guided = guidance_.region && !explore;
+    const bool refining = chooses_refinement(guidance_, rng_);
     for (unsigned int i = 0; i < numIters_; ++i) {
-        // The second half of the draws ignores a region that the shrinking ellipse has left.
-        if (const auto refining = sample_refinement(guidance_, rng_)) {
-            *pose = *refining;
-        } else if (guided && i < numIters_ / 2) {
+        // The second half of the draws ignores what the shrinking ellipse may have left.
+        const bool is_early = i < numIters_ / 2;
+        if (refining && is_early) {
+            *pose = guidance_.incumbent->sample_near(rng_);
+        } else if (guided && is_early) {
             *pose = sample_region(*guidance_.region, rng_);
         } else {
             *pose = bounded ? sample_ellipse() : sample_extent(extent_, rng_);

@@ -28,23 +28,15 @@ namespace {
 /// A path that is at most this share longer than the way without obstacles is optimal.
 constexpr double kOptimalityGap = 1e-6;
 
-ob::RealVectorBounds bounds_of(const Extent& extent) {
-    ob::RealVectorBounds bounds(2);
-    bounds.setLow(0.0);
-    bounds.setHigh(0, extent.x);
-    bounds.setHigh(1, extent.y);
-    return bounds;
-}
-
 ob::StateSpacePtr make_space(const RobotModel& robot, const Extent& extent,
                              const StateCountPtr& count) {
     if (robot.kind == RobotKind::kPoint) {
         auto space = std::make_shared<Counted<ob::RealVectorStateSpace>>(count, 2u);
-        space->setBounds(bounds_of(extent));
+        space->setBounds(extent.bounds());
         return space;
     }
     auto space = std::make_shared<Counted<CarSpace>>(count, robot.turning_radius, robot.reverse);
-    space->setBounds(bounds_of(extent));
+    space->setBounds(extent.bounds());
     return space;
 }
 

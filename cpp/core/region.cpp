@@ -123,16 +123,25 @@ Pose sample_extent(const Extent& extent, ompl::RNG& rng) {
             rng.uniformReal(-kPi, kPi)};
 }
 
-std::optional<Pose> sample_refinement(const Guidance& guidance, ompl::RNG& rng) {
+bool chooses_refinement(const Guidance& guidance, ompl::RNG& rng) {
     const bool possible = guidance.incumbent && guidance.incumbent->exists();
-    if (!possible || guidance.refinement == 0.0) return std::nullopt;
-    if (rng.uniform01() >= guidance.refinement) return std::nullopt;
-    return guidance.incumbent->sample_near(rng);
+    if (!possible || guidance.refinement == 0.0) return false;
+    return rng.uniform01() < guidance.refinement;
+}
+
+ob::RealVectorBounds Extent::bounds() const {
+    ob::RealVectorBounds bounds(2);
+    bounds.setLow(0.0);
+    bounds.setHigh(0, x);
+    bounds.setHigh(1, y);
+    return bounds;
 }
 
 Pose sample_guided(const Guidance& guidance, const Extent& extent, ompl::RNG& rng) {
-    const auto refining = sample_refinement(guidance, rng);
-    if (refining && extent.contains(*refining)) return *refining;
+    if (chooses_refinement(guidance, rng)) {
+        const Pose near = guidance.incumbent->sample_near(rng);
+        if (extent.contains(near)) return near;
+    }
     const bool explore = guidance.exploration > 0.0 && rng.uniform01() < guidance.exploration;
     if (!guidance.region || explore) return sample_extent(extent, rng);
     Pose pose = sample_region(*guidance.region, rng);

@@ -2,11 +2,11 @@
 
 #include <ompl/base/StateSampler.h>
 #include <ompl/base/StateSpace.h>
+#include <ompl/base/spaces/RealVectorBounds.h>
 #include <ompl/util/RandomNumbers.h>
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "core/curve.hpp"
@@ -57,10 +57,11 @@ struct Extent {
     bool contains(const Pose& pose) const {
         return pose.x >= 0.0 && pose.x <= x && pose.y >= 0.0 && pose.y <= y;
     }
+    ompl::base::RealVectorBounds bounds() const;
 };
 
-/// Where samples come from: the region, and with probability `exploration` the whole map. Once a
-/// path is known, with probability `refinement` its surroundings, wherever they lie.
+/// Where samples come from: once a path is known, with probability `refinement` its surroundings,
+/// wherever they lie; else the region, or with probability `exploration` the whole map.
 struct Guidance {
     std::shared_ptr<const Region> region;  ///< null: the whole map
     double exploration = 0.0;
@@ -80,8 +81,8 @@ Pose sample_region(const Region& region, ompl::RNG& rng);
 /// Draws one pose uniformly on the map.
 Pose sample_extent(const Extent& extent, ompl::RNG& rng);
 
-/// Draws a pose near the best path, it may lie outside the map; or says that none is due.
-std::optional<Pose> sample_refinement(const Guidance& guidance, ompl::RNG& rng);
+/// Decides whether the next pose is drawn near the best path; never before there is one.
+bool chooses_refinement(const Guidance& guidance, ompl::RNG& rng);
 
 /// Draws poses as the guidance says, never outside the map.
 Pose sample_guided(const Guidance& guidance, const Extent& extent, ompl::RNG& rng);

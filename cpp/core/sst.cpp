@@ -141,11 +141,7 @@ private:
 ob::StateSpacePtr make_space(const Query& query, const Extent& extent, const StateCountPtr& count,
                              const SeedsPtr& seeds) {
     auto space = std::make_shared<Counted<ob::SE2StateSpace>>(count);
-    ob::RealVectorBounds bounds(2);
-    bounds.setLow(0.0);
-    bounds.setHigh(0, extent.x);
-    bounds.setHigh(1, extent.y);
-    space->setBounds(bounds);
+    space->setBounds(extent.bounds());
     space->setStateSamplerAllocator(guided_sampler_allocator(query.guidance, extent, seeds));
     return space;
 }

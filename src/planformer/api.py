@@ -13,7 +13,6 @@ from planformer.errors import UnknownPlanner
 from planformer.guidance import AUTO, Region, RegionProposer, resolve_guide
 from planformer.maps import OccupancyGrid
 from planformer.planning import (
-    REFINEMENT,
     CancelToken,
     PlanResult,
     Problem,
@@ -35,7 +34,7 @@ def plan(
     guide: str | RegionProposer | None = AUTO,
     threshold: float | None = None,
     exploration: float = 0.0,
-    refinement: float = REFINEMENT,
+    refinement: float | None = None,
     time_limit: float | None = 5.0,
     target_length: float | None = None,
     max_vertices: int | None = None,
@@ -62,10 +61,11 @@ def plan(
         threshold: Probability above which an anchor belongs to the region: 0.5 as in the paper, or
             None to choose the one that connects start and goal in this query. Only for a guide
             given by name.
-        exploration: Share of samples drawn outside the region, from the whole map; 0 = region
-            only, 0.5 = the paper's alternation of exploitation and exploration (-EE).
-        refinement: Share of samples drawn near the best path so far, once there is one; 0 = OMPL's
-            planner as it is. SST does not refine.
+        exploration: Share of samples drawn from the whole map instead of the region; 0.5 = the
+            paper's alternation of exploitation and exploration (-EE).
+        refinement: Share of samples drawn near the best path so far, once there is one, which may
+            leave the region; exploration is a share of the others. 0 = OMPL's planner as it is,
+            None = 0.5 with a guide, 0.2 without. AITstar and SST do not refine.
         time_limit: Wall-clock limit of the search in seconds, None for none.
         target_length: Stop at the first path at most this long, in metres.
         max_vertices: Stop when the tree holds this many states.

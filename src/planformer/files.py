@@ -33,8 +33,8 @@ def whole_file(path: Path) -> Iterator[BinaryIO]:
 
 
 def remove_unfinished(folder: Path) -> None:
-    """Remove what processes that were killed have left of files that they were writing."""
-    for file in folder.iterdir():
+    """Remove what processes that were killed have left in a folder of files they were writing."""
+    for file in folder.glob(".*.tmp"):
         unfinished = _UNFINISHED.fullmatch(file.name)
         if unfinished and not _runs(int(unfinished[1])):
             file.unlink(missing_ok=True)

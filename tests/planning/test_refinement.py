@@ -6,7 +6,13 @@ import numpy as np
 import pytest
 
 from planformer.geometry import distance_to_polyline, wrap_angle
-from planformer.planning import SearchLimits, search
+from planformer.planning import (
+    REFINEMENT,
+    REFINEMENT_IN_REGION,
+    SamplingRegion,
+    SearchLimits,
+    search,
+)
 
 from .conftest import DUBINS, POINT, REEDS_SHEPP, random_problem
 
@@ -81,3 +87,22 @@ def test_the_first_path_is_the_same(forest):
     )
     assert (plain.path == refined.path).all()
     assert plain.vertices == refined.vertices
+
+
+@pytest.mark.parametrize("guided", [False, True])
+def test_by_default_a_region_is_refined_more_than_the_whole_map(forest, guided):
+    middle = np.array([[forest.width, forest.height]]) / 2
+    everywhere = SamplingRegion(middle, None, forest.width / 2, forest.width * forest.height)
+    lengths = {
+        refinement: search(
+            random_problem(forest, POINT, 5),
+            "RRTstar",
+            region=everywhere if guided else None,
+            refinement=refinement,
+            limits=SearchLimits(60.0, max_vertices=500),
+            seed=3,
+        ).length
+        for refinement in (None, REFINEMENT, REFINEMENT_IN_REGION)
+    }
+    assert (lengths[None] == lengths[REFINEMENT]) is not guided
+    assert (lengths[None] == lengths[REFINEMENT_IN_REGION]) is guided

@@ -26,6 +26,7 @@ def test_metrics_count_requests_and_plans(make_server, room_files):
     client.post("/plan", json=body)
     client.get(f"/maps/{room}/image")
     client.get("/no/such/route")
+    client.request("INVENTED", "/health")
     text = client.get("/metrics").text
     for line in (
         'planformer_plans_total{planner="BITstar",status="time limit"} 1.0',
@@ -36,6 +37,7 @@ def test_metrics_count_requests_and_plans(make_server, room_files):
     ):
         assert line in text
     assert "/no/such/route" not in text
+    assert "INVENTED" not in text
     assert "process_resident_memory_bytes" in text
 
 

@@ -173,6 +173,14 @@ def test_errors_before_the_search_are_ordinary_ones(client, problem):
         expect(client.post("/plan/stream", json=problem | change), status, error)
 
 
+def test_a_request_is_refused_however_long_its_check_takes(make_server):
+    client = make_server(progress_seconds=1e-4)
+    floor_plan = {"kind": "indoor", "width": 80.0, "height": 80.0}
+    large = client.post("/maps/generate", json=floor_plan).json()["id"]
+    body = {"map": large, "start": [0.02, 0.02], "goal": [30.0, 30.0]}  # the start is in a wall
+    expect(client.post("/plan/stream", json=body), 400, "StartOccupied")
+
+
 def test_planners_without_snapshots_show_that_they_work(client, problem):
     problem |= {"planner": "NEXT-KS", "target_length": 0.01, "time_limit": 0.5}
     with client.stream("POST", "/plan/stream", json=problem) as response:

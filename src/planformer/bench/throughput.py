@@ -15,6 +15,7 @@ from planformer.bench.environment import environment
 from planformer.bench.reporting import markdown_table, session_lines, write_summary
 from planformer.data.problems import random_problems
 from planformer.errors import InvalidParameter
+from planformer.guidance import AUTO, resolve_guide
 from planformer.maps import OccupancyGrid, generate_forest
 from planformer.processes import cores
 from planformer.robots import PointRobot
@@ -60,6 +61,7 @@ def run_throughput(
         for workers in sorted({1, count})
         for task in TASKS
     ]
+    resolve_guide(AUTO, PointRobot())  # loads the weights, which no query does
     lines = []
     for number, (maps, workers, task) in enumerate(cases):
         batches = [_batch(seed + index, max(problems // maps, 1)) for index in range(maps)]

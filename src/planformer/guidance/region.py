@@ -22,7 +22,7 @@ RELAXATION = 0.5
 that the shortest path and not just any path fits (benchmarks/regions.py)."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Region:
     """The part of a map in which a good path is believed to run.
 

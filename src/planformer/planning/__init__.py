@@ -4,7 +4,7 @@ from planformer.planning.edges import edge_lines
 from planformer.planning.problem import Problem
 from planformer.planning.progress import Progress, Snapshot
 from planformer.planning.result import PlanResult, PlanStatus, Tree
-from planformer.planning.sampling import REFINEMENT, SamplingRegion
+from planformer.planning.sampling import REFINEMENT, REFINEMENT_IN_REGION, SamplingRegion
 from planformer.planning.search import (
     CancelToken,
     SearchLimits,
@@ -16,6 +16,7 @@ from planformer.planning.validity import path_is_valid
 
 __all__ = [
     "REFINEMENT",
+    "REFINEMENT_IN_REGION",
     "CancelToken",
     "PlanResult",
     "PlanStatus",

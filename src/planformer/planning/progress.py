@@ -14,7 +14,7 @@ from planformer.planning.problem import Problem
 from planformer.planning.result import Tree
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Snapshot:
     """What a search had found at one moment.
 

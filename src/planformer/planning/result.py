@@ -32,7 +32,7 @@ class PlanStatus(str, Enum):
     """The planner's path failed the independent check and was withheld."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Tree:
     """The planner's search tree or roadmap.
 
@@ -51,7 +51,7 @@ class Tree:
         return cls(vertices[:, : problem.robot.state_dimension], found.tree_edges.astype(np.int64))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class PlanResult:
     """The answer of `plan`; no path within the limits is an answer too.
 

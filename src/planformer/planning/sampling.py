@@ -14,11 +14,13 @@ ELLIPSE_ASPECT = 0.5
 offset from their anchors are narrower by as much: they lie round a path, not round a lattice."""
 YAW_DEVIATION = 0.35
 """Standard deviation [rad] of a car's yaw round a heading of unknown certainty."""
-REFINEMENT = 0.5
+REFINEMENT = 0.2
 """Share of the samples near the best path so far; the others still find other ways."""
+REFINEMENT_IN_REGION = 0.5
+"""The same in a region, which leaves few ways to be found."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class SamplingRegion:
     """Shapes of one size round anchor points, in the world frame.
 

@@ -18,7 +18,12 @@ from planformer.geometry import Frame, wrap_angle
 from planformer.planning.problem import Problem, State
 from planformer.planning.progress import Progress
 from planformer.planning.result import PlanResult, PlanStatus, Tree
-from planformer.planning.sampling import REFINEMENT, YAW_DEVIATION, SamplingRegion
+from planformer.planning.sampling import (
+    REFINEMENT,
+    REFINEMENT_IN_REGION,
+    YAW_DEVIATION,
+    SamplingRegion,
+)
 from planformer.planning.validity import path_is_valid
 from planformer.robots import DubinsCar, Robot
 
@@ -74,7 +79,7 @@ def search(
     *,
     region: SamplingRegion | None = None,
     exploration: float = 0.0,
-    refinement: float = REFINEMENT,
+    refinement: float | None = None,
     limits: SearchLimits | None = None,
     seed: int | None = None,
     keep_tree: bool = False,
@@ -89,7 +94,9 @@ def search(
         region: Where samples are drawn; None for the whole map.
         exploration: Share of the samples drawn from the whole map, 0 to 1.
         refinement: Share of the samples drawn near the best path, 0 to 1, once there is one; they
-            may leave the region. 0 gives OMPL's planner as it is. SST does not refine.
+            may leave the region, and exploration is a share of the others. 0 gives OMPL's planner
+            as it is; None is `REFINEMENT`, or `REFINEMENT_IN_REGION` in one. AITstar and SST do
+            not refine.
         limits: When to stop; five seconds by default.
         seed: 0 to 2**32 - 1; the same seed gives the same result unless the time limit ends the
             search. None draws one.
@@ -111,6 +118,8 @@ def search(
             f"unknown planner {planner!r} for a {type(problem.robot).__name__}; "
             f"valid names: {', '.join(names)}"
         )
+    if refinement is None:
+        refinement = REFINEMENT if region is None else REFINEMENT_IN_REGION
     for name, share in (("exploration", exploration), ("refinement", refinement)):
         if not 0.0 <= share <= 1.0:
             raise InvalidParameter(f"{name} must be between 0 and 1; got {share}")

@@ -12,6 +12,7 @@ from planformer.serve.pool import PlanPool
 from planformer.serve.store import MapStore
 
 _SECONDS = (0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0)
+_METHODS = frozenset({"DELETE", "GET", "HEAD", "OPTIONS", "PATCH", "POST", "PUT"})
 
 
 class Metrics:
@@ -90,7 +91,9 @@ class CountRequests:
         try:
             await self._app(scope, receive, watch)
         finally:
-            # Without a route a path is anyone's invention, and every one would be a new series.
+            # Without a route a path is anyone's invention, as the method may be, and every one
+            # would be a new series.
             route = getattr(scope.get("route"), "path", "other")
             seconds = time.perf_counter() - started
-            self._metrics.count_request(scope["method"], route, status, seconds)
+            method = scope["method"] if scope["method"] in _METHODS else "other"
+            self._metrics.count_request(method, route, status, seconds)

@@ -84,6 +84,15 @@ def check_run(grid: OccupancyGrid, ends: Ends, options: RunOptions, settings: Se
     return Run(grid, ends, options, guide, checked_seed(options.seed))
 
 
+def check_problem(run: Run) -> None:
+    """Check start and goal, which takes a while on a map that is new.
+
+    Raises:
+        InvalidProblem: Start or goal is off the map or in collision.
+    """
+    Problem(run.grid, run.ends.robot.robot(), tuple(run.ends.start), tuple(run.ends.goal))
+
+
 def execute(
     run: Run,
     cancel: CancelToken,

@@ -13,7 +13,7 @@ from planformer.guidance import Region
 from planformer.planning import CancelToken, Progress, Snapshot
 from planformer.serve.answers import region_answer
 from planformer.serve.errors import body_of
-from planformer.serve.plans import Run, answer, execute
+from planformer.serve.plans import Run, answer, check_problem, execute
 from planformer.serve.responses import ProgressResponse, RegionResponse
 from planformer.serve.service import Service
 from planformer.serve.tree_updates import TreeUpdates
@@ -32,6 +32,8 @@ async def plan_events(service: Service, request: Request, run: Run) -> AsyncIter
     begun = False
 
     def search(cancel: CancelToken) -> bytes:
+        check_problem(run)
+        news.may_come()
         result = execute(
             run, cancel, service.settings, on_region=news.tell_region, progress=news.progress
         )
@@ -65,9 +67,14 @@ class _News:
     def __init__(self, run: Run, interval: float) -> None:
         self.progress = Progress(interval=interval, keep_tree=run.options.tree)
         self._run = run
+        self._checked = False
         self._region: RegionResponse | None = None
         self._last: Snapshot | None = None
         self._tree = TreeUpdates(run.ends.robot.robot())
+
+    def may_come(self) -> None:
+        """Note that nothing is wrong with the request; from the search's thread."""
+        self._checked = True
 
     def tell_region(self, region: Region, seconds: float) -> None:
         """Note the region; from the search's thread."""
@@ -82,7 +89,7 @@ class _News:
             self._region = None
         snapshot = self.progress.latest()
         if snapshot is None:
-            events.append(_AT_WORK)
+            events += [_AT_WORK] * self._checked
         elif self._last is None or snapshot.seconds > self._last.seconds:
             events.append(event("progress", self._progress(snapshot)))
             self._last = snapshot

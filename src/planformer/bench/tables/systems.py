@@ -17,7 +17,15 @@ from planformer.geometry import polyline_length
 from planformer.guidance import RegionProposer, load_network
 from planformer.guidance.onnx import OnnxProposer
 from planformer.guidance.region import PAPER_THRESHOLD
-from planformer.planning import REFINEMENT, PlanResult, Problem, SearchLimits, path_is_valid, search
+from planformer.planning import (
+    REFINEMENT,
+    REFINEMENT_IN_REGION,
+    PlanResult,
+    Problem,
+    SearchLimits,
+    path_is_valid,
+    search,
+)
 from planformer.weights import Weights
 
 CORRIDOR = "lazy-theta corridor"
@@ -72,7 +80,7 @@ class GuidedPlanner:
     guide: str | None = None
     threshold: float | None = None
     exploration: float = 0.0
-    refinement: float = REFINEMENT
+    refinement: float = REFINEMENT_IN_REGION
 
     def solve(self, problem: Problem, limits: SearchLimits, seed: int) -> Solution:
         """Propose a region if there is a guide, and search."""
@@ -151,11 +159,15 @@ def _astar(problem: Problem, seed: int) -> NDArray[np.float64] | None:
 
 
 _EE = 0.5
-"""Every other sample from the whole map, as the paper alternates."""
+"""As many samples from the whole map as from the region: the paper alternates."""
 
 
 def _plain(planner: str, guide: str | None = None) -> GuidedPlanner:
     return GuidedPlanner(planner, guide, refinement=0.0)
+
+
+def _refined(planner: str) -> GuidedPlanner:
+    return GuidedPlanner(planner, refinement=REFINEMENT)
 
 
 POINT_SYSTEMS: dict[str, System] = {
@@ -164,9 +176,9 @@ POINT_SYSTEMS: dict[str, System] = {
     "BIT*": _plain("BITstar"),
     "ABIT*": _plain("ABITstar"),
     "AIT*": _plain("AITstar"),
-    "RRT* (refined)": GuidedPlanner("RRTstar"),
-    "IRRT* (refined)": GuidedPlanner("InformedRRTstar"),
-    "BIT* (refined)": GuidedPlanner("BITstar"),
+    "RRT* (refined)": _refined("RRTstar"),
+    "IRRT* (refined)": _refined("InformedRRTstar"),
+    "BIT* (refined)": _refined("BITstar"),
     "UNet-RRT*": GuidedPlanner("RRTstar", "unet", PAPER_THRESHOLD),
     "UNet-RRT*-EE": GuidedPlanner("RRTstar", "unet", PAPER_THRESHOLD, _EE),
     "MPNet": LearnedSystem("MPNet"),
@@ -196,8 +208,8 @@ CAR_SYSTEMS: dict[str, System] = {
     "RRT*": _plain("RRTstar"),
     "IRRT*": _plain("InformedRRTstar"),
     "SST": _plain("SST"),
-    "RRT* (refined)": GuidedPlanner("RRTstar"),
-    "IRRT* (refined)": GuidedPlanner("InformedRRTstar"),
+    "RRT* (refined)": _refined("RRTstar"),
+    "IRRT* (refined)": _refined("InformedRRTstar"),
     "MPT-RRT* (not refined)": _plain("RRTstar", "mpt-dubins"),
     "MPT-RRT*": GuidedPlanner("RRTstar", "mpt-dubins"),
     "MPT-IRRT*": GuidedPlanner("InformedRRTstar", "mpt-dubins"),
