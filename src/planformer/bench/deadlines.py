@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from planformer.bench.environment import environment
 from planformer.bench.problems import BenchProblem, make_problem
-from planformer.bench.reporting import markdown_table, session_lines, write_summary
+from planformer.bench.reporting import table_page, write_summary
 from planformer.bench.rows import chosen_rows
 from planformer.bench.running import in_rows
 from planformer.guidance import AUTO, resolve_guide
@@ -108,6 +108,4 @@ def markdown(summary: Mapping[str, Any]) -> str:
         f"Overrun of the time limit in milliseconds, {summary['lines'][0]['problems']} problems "
         "a line."
     )
-    return (
-        "\n".join([markdown_table(header, rows), "", caption, "", *session_lines(summary)]) + "\n"
-    )
+    return table_page(header, rows, summary, caption)

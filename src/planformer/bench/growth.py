@@ -15,9 +15,8 @@ from matplotlib.figure import Figure
 from planformer.bench.environment import environment
 from planformer.bench.reporting import (
     interval_cell,
-    markdown_table,
     millisecond_cell,
-    session_lines,
+    table_page,
     write_summary,
 )
 from planformer.bench.statistics import median_of, percent_of
@@ -142,9 +141,7 @@ def markdown(summary: Mapping[str, Any]) -> str:
         f"the path is at most {SLACK} times the shortest; failures count with {SECONDS:.0f} s. "
         "Peak: resident memory of the process that ran all systems up to this size."
     )
-    return (
-        "\n".join([markdown_table(header, rows), "", caption, "", *session_lines(summary)]) + "\n"
-    )
+    return table_page(header, rows, summary, caption)
 
 
 def plot(summary: Mapping[str, Any]) -> Figure:

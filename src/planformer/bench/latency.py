@@ -12,9 +12,8 @@ from numpy.typing import NDArray
 
 from planformer.bench.environment import environment
 from planformer.bench.reporting import (
-    markdown_table,
     millisecond_cell,
-    session_lines,
+    table_page,
     write_summary,
 )
 from planformer.bench.rows import Row, chosen_rows
@@ -150,9 +149,7 @@ def markdown(summary: Mapping[str, Any]) -> str:
     header = ["ms", *(f"{line['row']}, {line['problems']} problems" for line in lines)]
     rows = [[meaning, *(_cell(line, stage) for line in lines)] for stage, meaning in STAGES.items()]
     caption = "Medians with 95 % intervals; 90th percentiles after the slash."
-    return (
-        "\n".join([markdown_table(header, rows), "", caption, "", *session_lines(summary)]) + "\n"
-    )
+    return table_page(header, rows, summary, caption)
 
 
 def _cell(line: Mapping[str, Any], stage: str) -> str:

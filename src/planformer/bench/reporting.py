@@ -100,6 +100,17 @@ def causes_line(causes: Mapping[str, int]) -> str:
     return ", ".join(f"{cause} {count}" for cause, count in causes.items())
 
 
+def table_page(
+    header: Sequence[str],
+    rows: Iterable[Sequence[str]],
+    summary: Mapping[str, Any],
+    caption: str | None = None,
+) -> str:
+    """A table with its caption, and how it was measured."""
+    captions = [] if caption is None else [caption, ""]
+    return "\n".join([markdown_table(header, rows), "", *captions, *session_lines(summary)]) + "\n"
+
+
 def session_lines(summary: Mapping[str, Any]) -> list[str]:
     """How the sessions of a summary measured, as a list in Markdown without repetitions."""
     return list(dict.fromkeys(_session_line(session) for session in summary["sessions"]))

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from planformer.bench.environment import environment
-from planformer.bench.reporting import markdown_table, session_lines, write_summary
+from planformer.bench.reporting import table_page, write_summary
 from planformer.data.problems import random_problems
 from planformer.errors import InvalidParameter
 from planformer.guidance import AUTO, resolve_guide
@@ -127,4 +127,4 @@ def markdown(summary: Mapping[str, Any]) -> str:
         ]
         for line in summary["lines"]
     ]
-    return "\n".join([markdown_table(header, rows), "", *session_lines(summary)]) + "\n"
+    return table_page(header, rows, summary)

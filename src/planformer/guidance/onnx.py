@@ -85,16 +85,15 @@ class OnnxNetwork:
         pixels = network_map(problem.blocked, problem.grid.resolution, scale)
         tokens = [size // scale.stride for size in pixels.shape]
         ends = problem.local_start, problem.local_goal
-        parts: list[list[tuple[Window, NDArray[np.float32]]]] = [[] for _ in self._output_channels]
+        predictions: list[tuple[Window, list[NDArray[np.float32]]]] = []
         for window, query in encode_windows(pixels, *ends, scale):
             seen = window.cut(pixels, scale.stride)
             predicted = self._run({"map": seen[None, None], "query": query[None]})
             self._check(predicted, window.shape)
-            for of_output, values in zip(parts, predicted, strict=True):
-                of_output.append((window, values[0]))
+            predictions.append((window, predicted))
         outputs = [np.zeros((channels, *tokens), np.float32) for channels in self._output_channels]
-        for of_output, whole in zip(parts, outputs, strict=True):
-            stitch(of_output, whole)
+        for i, whole in enumerate(outputs):
+            stitch([(window, predicted[i][0]) for window, predicted in predictions], whole)
         return outputs
 
     @property
