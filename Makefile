@@ -104,10 +104,10 @@ wheel: $(DEV_READY)
 clean:
 	rm -rf build demo dist .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
 
-## distclean: remove the environment as well
+## distclean: remove the environments as well
 .PHONY: distclean
 distclean: clean
-	rm -rf $(VENV)
+	rm -rf $(VENV) $(ROS_VENV)
 
 ## help: list the targets
 .PHONY: help

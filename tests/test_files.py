@@ -76,3 +76,14 @@ write_files({{folder / "large": bytes(5000), folder / "small": b"new"}})
         "large": b"old",
         "small": b"old",
     }
+
+
+def test_a_file_that_is_written_twice_at_once_is_whole(tmp_path):
+    path = tmp_path / "file"
+    with whole_file(path) as slow:
+        slow.write(b"slow" * 1000)
+        with whole_file(path) as fast:
+            fast.write(b"fast")
+        assert path.read_bytes() == b"fast"
+    assert path.read_bytes() == b"slow" * 1000
+    assert [p.name for p in tmp_path.iterdir()] == ["file"]

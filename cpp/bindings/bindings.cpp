@@ -15,9 +15,10 @@ void require_positive(const char* name, double value) {
 
 FreeSpace free_space_of(const BlockedArray& blocked, double resolution) {
     static_assert(sizeof(bool) == sizeof(std::uint8_t));
-    // The core numbers cells with int.
-    if (blocked.size() >= static_cast<std::size_t>(std::numeric_limits<int>::max())) {
-        throw nb::value_error("blocked must have fewer than 2^31 - 1 cells");
+    // The core numbers cells, and those of a ring round them, with int.
+    if ((blocked.shape(0) + 2) * (blocked.shape(1) + 2) >=
+        static_cast<std::size_t>(std::numeric_limits<int>::max())) {
+        throw nb::value_error("blocked must have fewer than 2^31 - 1 cells, with a ring of one");
     }
     require_positive("resolution", resolution);
     return {static_cast<int>(blocked.shape(0)), static_cast<int>(blocked.shape(1)), resolution,

@@ -111,13 +111,16 @@ private:
     double length_ = 0.0;
 };
 
-/// Visits the inner poses of one arc at a spacing of at most `step` metres and then `arc_end`.
-/// Turning the radius vector by a constant rotation spares the trigonometry of every pose.
+/// Visits the inner poses of one arc at a spacing of at most `step` metres and a quarter turn,
+/// beyond which two poses and their distance would not tell the arc between them, and then
+/// `arc_end`. Turning the radius vector by a constant rotation spares the trigonometry of every
+/// pose.
 template <typename Visit>
 bool for_each_arc_pose(const Pose& arc_start, const Segment& arc, const Pose& arc_end, double step,
                        Visit&& visit) {
     constexpr double kMostPoses = 1 << 20;  // bounds the loop whatever the step
-    const double wanted = std::ceil(std::abs(arc.length) / step);
+    const double quarters = std::abs(arc.curvature * arc.length) / (0.5 * kPi);
+    const double wanted = std::ceil(std::max(std::abs(arc.length) / step, quarters));
     const int poses = static_cast<int>(std::min(kMostPoses, std::max(1.0, wanted)));
     const double turn = arc.curvature * arc.length / poses;
     const double turn_cos = std::cos(turn);

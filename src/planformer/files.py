@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import os
 import re
+import secrets
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
@@ -12,7 +13,7 @@ from typing import BinaryIO
 
 from planformer.errors import InvalidParameter
 
-_UNFINISHED = re.compile(r"\..+\.(\d+)\.tmp")
+_UNFINISHED = re.compile(r"\..+\.(\d+)-[0-9a-f]+\.tmp")
 """Name of a file that a process is writing, with the process's number."""
 
 
@@ -50,21 +51,23 @@ def write_files(contents: Mapping[Path, bytes]) -> None:
     """
     try:
         with ExitStack() as stack:
-            for path, content in contents.items():
+            temporaries = {path: _temporary(path) for path in contents}
+            for path, temporary in temporaries.items():
                 if path.is_dir():
                     raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
-                stack.callback(_temporary(path).unlink, missing_ok=True)
-                with _on_disk(_temporary(path)) as file:
-                    file.write(content)
-            for path in contents:
-                _temporary(path).replace(path)
+                stack.callback(temporary.unlink, missing_ok=True)
+                with _on_disk(temporary) as file:
+                    file.write(contents[path])
+            for path, temporary in temporaries.items():
+                temporary.replace(path)
     except OSError as error:
         names = ", ".join(map(str, contents))
         raise InvalidParameter(f"{names}: cannot be written: {error.strerror or error}") from error
 
 
 def _temporary(path: Path) -> Path:
-    return path.with_name(f".{path.name}.{os.getpid()}.tmp")
+    """A name for the file of a path that no other thread or process takes."""
+    return path.with_name(f".{path.name}.{os.getpid()}-{secrets.token_hex(4)}.tmp")
 
 
 @contextmanager

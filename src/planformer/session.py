@@ -31,6 +31,7 @@ class MapSession:
 
     Raises:
         UnknownGuide: No such weights.
+        InvalidWeights: Their files are damaged.
         InvalidParameter: The threshold is out of range, or the guide has its own.
     """
 
@@ -71,7 +72,7 @@ class MapSession:
         return propose_region(self._grid, self._robot, start, goal, guide=self._guide)
 
     def plan(self, start: Sequence[float], goal: Sequence[float], **options: Any) -> PlanResult:
-        """Plan a path; options and errors are those of `planformer.plan`."""
+        """Plan a path; other options, and errors, are those of `planformer.plan`."""
         return plan(self._grid, self._robot, start, goal, guide=self._guide, **options)
 
     def plan_all(
@@ -82,7 +83,8 @@ class MapSession:
         Args:
             queries: Start and goal of each.
             workers: Number of threads; None for one a core.
-            **options: As in `planformer.plan`, the same for all.
+            **options: As in `planformer.plan`, the same for all; `cancel` ends all, and is
+                cancelled when one fails.
 
         Returns:
             The results, in the order of the queries.
@@ -92,14 +94,13 @@ class MapSession:
         """
         grid = self._grid
         grid.components(self._robot.radius)  # once, before the threads ask for it
-        others = CancelToken()
-        options = {"guide": self._guide, "cancel": others, **options}
+        options = {"guide": self._guide, "cancel": CancelToken(), **options}
         with ThreadPoolExecutor(workers or cores()) as pool:
             try:
                 plans = [pool.submit(plan, grid, self._robot, *ends, **options) for ends in queries]
                 done, _ = wait(plans, return_when=FIRST_EXCEPTION)
                 return [future.result() for future in plans if future in done]
             except BaseException:  # an error or Ctrl-C: nobody waits for the other plans
-                others.cancel()
+                options["cancel"].cancel()
                 pool.shutdown(wait=False, cancel_futures=True)
                 raise

@@ -64,3 +64,15 @@ def test_refuses_what_is_no_map(blocked):
 def test_refuses_an_impossible_resolution(resolution):
     with pytest.raises(InvalidParameter):
         network_map(np.zeros((3, 3), bool), resolution, SCALE)
+
+
+def test_cells_far_finer_than_a_pixel_become_one():
+    assert network_map(np.eye(3, dtype=bool), 1e-21, SCALE)[0, 0] == 1
+    assert network_map(np.zeros((3, 3), bool), 1e-21, SCALE)[0, 0] == 0
+
+
+@pytest.mark.parametrize(("query", "cells"), [("wavefront", 410), ("square", 103)])
+def test_few_cells_of_a_great_size_are_too_many_pixels(query, cells):
+    scale = NetworkScale(query=query, query_stride=5 if query == "wavefront" else 1)
+    with pytest.raises(InvalidMap, match=f"{20 * cells} x {20 * cells} pixels"):
+        network_map(np.zeros((cells, cells), bool), 20 * scale.resolution, scale)

@@ -290,3 +290,26 @@ def test_any_size_gets_a_region(shape):
     region = pf.propose_region(grid, robot, (0.01, 0.01), (width - 0.01, height - 0.01))
     assert region.connected
     assert region.mask.shape == shape
+
+
+@pytest.mark.parametrize("reason", ["unreachable", "cancelled"])
+def test_nothing_is_proposed_where_nothing_is_searched(room, reason):
+    @dataclass
+    class Counting:
+        proposals: int = 0
+
+        def propose(self, problem):
+            self.proposals += 1
+            return pf.propose_region(problem.grid, problem.robot, problem.start, problem.goal)
+
+    grid, token, guide = room.grid, pf.CancelToken(), Counting()
+    if reason == "unreachable":
+        occupied = grid.occupied.copy()
+        occupied[:, grid.to_rc(room.start)[1] + 10] = True
+        grid = pf.OccupancyGrid(occupied, grid.resolution, grid.origin)
+    else:
+        token.cancel()
+    result = pf.plan(grid, room.robot, room.start, room.goal, guide=guide, cancel=token)
+    assert (result.status.value, result.region, guide.proposals) == (reason, None, 0)
+    assert pf.plan(room.grid, room.robot, room.start, room.goal, guide=guide, time_limit=1.0).solved
+    assert guide.proposals == 1

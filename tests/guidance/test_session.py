@@ -76,6 +76,15 @@ def test_a_query_that_fails_ends_the_others(forest, bad):
         session.plan_all([*_queries(forest, 3), bad], workers=4, **endless)
 
 
+def test_a_query_that_fails_cancels_the_token_of_all(forest):
+    token = pf.CancelToken()
+    endless = {"time_limit": 3600.0, "target_length": 0.01, "cancel": token}
+    queries = [*_queries(forest, 3), ((-1.0, 0.0), (1.0, 1.0))]
+    with pytest.raises(pf.PlanformerError, match="outside the map"):
+        pf.MapSession(forest, ROBOT, guide=None).plan_all(queries, workers=4, **endless)
+    assert token.is_cancelled
+
+
 def test_all_queries_can_be_cancelled(forest):
     token = pf.CancelToken()
     token.cancel()

@@ -135,6 +135,19 @@ def test_clearance_is_exact_on_large_maps(share):
     np.testing.assert_array_equal(np.rint(grid.clearance.astype(float) ** 2), np.rint(expected**2))
 
 
+def test_a_wall_across_a_very_wide_map_stays_closed():
+    occupied = np.zeros((40, 9000), bool)  # OpenCV 4.7 leaves holes beyond some 4,000 columns
+    occupied[20] = True
+    clearance = OccupancyGrid(occupied, 1.0).clearance
+    assert not clearance[20].any()
+    assert (clearance[19] == 1.0).all()
+
+
+def test_more_cells_than_can_be_numbered_are_refused():
+    with pytest.raises(InvalidMap, match=r"2,500,000,000 cells"):
+        OccupancyGrid(np.broadcast_to(False, (50_000, 50_000)))
+
+
 def test_clearance_counts_the_ring_outside():
     assert OccupancyGrid([[0]], 0.1).clearance[0, 0] == pytest.approx(0.1)
     np.testing.assert_allclose(OccupancyGrid(np.zeros((3, 5)), 1.0).clearance[1], [1, 2, 2, 2, 1])

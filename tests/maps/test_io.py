@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import io
 import os
 from pathlib import Path
 
@@ -11,6 +12,15 @@ from planformer.errors import InvalidMap, InvalidParameter
 from planformer.maps import OccupancyGrid, generate_indoor, load_map, save_map
 
 OCCUPIED = np.array([[1, 0, 0], [0, 0, 1]], bool)
+
+
+def _header(shape: tuple[int, ...]) -> bytes:
+    """The beginning of an array file."""
+    file = io.BytesIO()
+    np.lib.format.write_array_header_1_0(
+        file, {"descr": "|b1", "fortran_order": False, "shape": shape}
+    )
+    return file.getvalue()
 
 
 @pytest.mark.parametrize("suffix", [".npy", ".png", ".yaml", ".yml", ".YAML"])
@@ -73,6 +83,15 @@ def test_arrays_of_any_number_type(tmp_path, dtype):
 def test_arrays_that_are_no_map(tmp_path, array):
     np.save(tmp_path / "map.npy", array)
     with pytest.raises(InvalidMap, match=r"map\.npy: occupied"):
+        load_map(tmp_path / "map.npy")
+
+
+@pytest.mark.parametrize(
+    "data", [b"PK\x03\x04 but no archive", _header((10**6, 10**6)), _header((10**30, 1))]
+)
+def test_damaged_arrays_are_refused(tmp_path, data):
+    (tmp_path / "map.npy").write_bytes(data)
+    with pytest.raises(InvalidMap, match=r"map\.npy: not a NumPy array"):
         load_map(tmp_path / "map.npy")
 
 

@@ -214,7 +214,10 @@ def test_missing_keys_are_named(tmp_path, key):
 
 @pytest.mark.parametrize(
     "text",
-    [b"", b"- a\n- b\n", b"text", b"a: [", b"\xff\xfe\x00", b"a: 2001-99-99", b"\0", b"[" * 1500],
+    [
+        *(b"", b"- a\n- b\n", b"text", b"a: [", b"\xff\xfe\x00", b"a: 2001-99-99", b"\0"),
+        *(b"[" * 1500, b"a: !!bool x", b"a: !!int ''", b"a: !!float ''", b"a: !!timestamp x"),
+    ],
 )
 def test_damaged_yaml(tmp_path, text):
     file = tmp_path / "map.yaml"
@@ -273,11 +276,14 @@ def test_saving_leaves_nothing_but_the_two_files(tmp_path):
 
 
 def test_a_failed_save_keeps_the_old_map(tmp_path):
-    file = tmp_path / "map.yaml"
+    # While it is written, a file has a longer name: too long a one, for the YAML file alone.
+    longest = os.pathconf(tmp_path, "PC_NAME_MAX") - len(f"..{os.getpid()}-01234567.tmp")
+    file = tmp_path / ("m" * (longest - len(".pgm")) + ".yaml")
     grid = OccupancyGrid(np.eye(3))
-    save_ros_map(grid, file)
+    picture = file.with_suffix(".pgm")
+    picture.write_bytes(b"old")
+    file.write_bytes(b"old")
     before = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
-    (tmp_path / f".map.yaml.{os.getpid()}.tmp").mkdir()  # the second file cannot be written
     with pytest.raises(InvalidParameter, match="cannot be written"):
         save_ros_map(OccupancyGrid(np.ones((3, 3))), file)
     after = {path.name: path.read_bytes() for path in tmp_path.iterdir() if path.is_file()}

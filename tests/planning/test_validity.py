@@ -183,3 +183,15 @@ def ends_on_the_edge(grid, robot):
         if not grid.blocked(robot.radius)[tuple(grid.to_rc(states[:, :2]).T)].any():
             return [tuple(state) for state in states]
     raise AssertionError("the edge is blocked")
+
+
+@pytest.mark.parametrize("kind", [pf.DubinsCar, pf.ReedsSheppCar])
+def test_arcs_much_shorter_than_a_cell_are_told_from_skids(kind):
+    grid = pf.OccupancyGrid(np.zeros((20, 20), bool), 0.5)
+    robot = kind(radius=0.1, turning_radius=0.05)
+    problem = Problem(grid, robot, (5.0, 5.0, 0.0), (4.95, 5.0, 0.0))  # nearly a full circle
+    result = search(problem, "RRTConnect", limits=QUICK, seed=1)
+    assert result.solved
+    assert result.length > 0.05
+    turns = np.abs(np.angle(np.exp(1j * np.diff(result.path[:, 2]))))
+    assert turns.max() <= np.pi / 2 + 1e-9

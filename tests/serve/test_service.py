@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import asyncio
 import re
+import threading
 
 import httpx
 import pytest
 from fastapi import FastAPI
 
 import planformer as pf
-from planformer.errors import InvalidParameter
+from planformer.errors import Busy, InvalidParameter, ShuttingDown
 from planformer.serve import ServeSettings, create_app
+from planformer.serve.service import Service
 
 from .conftest import running
 
@@ -114,3 +117,21 @@ def test_a_folder_that_cannot_be_made_is_refused(tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.raises(InvalidParameter, match="cannot be made"):
         create_app(ServeSettings(folder=tmp_path / "file" / "maps"))
+
+
+def test_work_on_maps_waits_in_a_short_queue():
+    async def flood():
+        service, release = Service(ServeSettings()), threading.Event()
+        waiting = [asyncio.ensure_future(service.in_thread(release.wait)) for _ in range(32)]
+        await asyncio.sleep(0)
+        with pytest.raises(Busy):
+            await service.in_thread(release.wait)
+        service.close()
+        with pytest.raises(ShuttingDown):
+            await service.in_thread(release.wait)
+        release.set()
+        return await asyncio.gather(*waiting, return_exceptions=True)
+
+    ends = asyncio.run(flood())
+    assert ends.count(True) == 2  # those that ran
+    assert sum(isinstance(end, ShuttingDown) for end in ends) == 30

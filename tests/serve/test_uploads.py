@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from PIL import Image
 
 from planformer.errors import InvalidMap, PlanformerError
 from planformer.maps.io import load_map
@@ -246,3 +247,19 @@ def test_the_library_refuses_aliases_too(tmp_path):
     (tmp_path / "lab.png").write_bytes(SMALL)
     with pytest.raises(InvalidMap, match="aliases"):
         load_map(tmp_path / "a.yaml")
+
+
+def test_a_jpeg_of_very_many_scans_is_refused_undecoded():
+    picture = io.BytesIO()
+    Image.fromarray(np.full((64, 64), 255, np.uint8)).save(picture, "JPEG", progressive=True)
+    data = picture.getvalue()
+    assert read({"map.jpg": data}).grid.shape == (64, 64)
+    scan = data[data.rindex(b"\xff\xda") : -2]
+    with pytest.raises(InvalidMap, match="scans"):
+        read({"map.jpg": data[:-2] + 200 * scan + data[-2:]})
+
+
+def test_a_map_that_is_a_line_of_very_many_cells_is_refused(client):
+    line = b"type octile\nheight 1\nwidth 100000\nmap\n" + b"." * 100_000 + b"\n"
+    response = client.post("/maps", files=[("files", ("line.map", line))])
+    assert "65,535" in expect(response, 413, "TooLarge")["message"]

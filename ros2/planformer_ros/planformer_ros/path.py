@@ -137,9 +137,9 @@ class _Search:
             NoValidPath: There is no path.
             PlanformerError: The region cannot be proposed, and there is no fallback.
         """
-        guide = self.settings.guide_name
-        if self.planner in learned_planner_names(prepared.problem.robot):
-            guide = None  # it plans by itself
+        problem, guide = prepared.problem, self.settings.guide_name
+        if self.planner in learned_planner_names(problem.robot) or not problem.is_connected:
+            guide = None  # it plans by itself, or there is no way that a region could show
         if guide is None:
             return _Found(self._plan(prepared, None, share=1.0), prepared.costmap)
         try:

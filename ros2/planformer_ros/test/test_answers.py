@@ -147,6 +147,13 @@ class TestPaths:
         answer = plan(forest, planner_id="MPNet", goal=(3.0, 3.0, 0.0))
         assert (answer.code, answer.region) == (ErrorCode.NONE, None)
 
+    def test_obstacles_between_start_and_goal_are_known_without_a_region(self):
+        occupied = np.zeros((100, 100), bool)
+        occupied[50] = True
+        costmap = Costmap.from_grid(pf.OccupancyGrid(occupied, 0.25))
+        for_cars = replace(SETTINGS, guide="mpt-dubins", fallback=False)  # cannot propose here
+        assert plan(costmap, for_cars).code is ErrorCode.NO_VALID_PATH
+
     def test_no_map(self):
         answer = answer_path(lambda: None, START, GOAL, "", SETTINGS, CancelToken())
         assert answer.code is ErrorCode.TIMEOUT

@@ -72,7 +72,7 @@ def plan_command(
         ),
     ] = None,
     exploration: Annotated[
-        float, typer.Option(help="Share of the samples drawn outside the region, 0 to 1.")
+        float, typer.Option(help="Share of the samples drawn from the whole map, 0 to 1.")
     ] = 0.0,
     time_limit: Annotated[float, typer.Option(help="Seconds of the search.")] = 5.0,
     target_length: Annotated[

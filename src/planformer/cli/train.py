@@ -37,9 +37,12 @@ def train_command(
     steps: Annotated[int | None, typer.Option(help="End after this many steps.")] = None,
     minutes: Annotated[float | None, typer.Option(help="End after this training time.")] = None,
     batch_size: Annotated[int | None, typer.Option(help="Problems a step.")] = None,
-    learning_rate: Annotated[float | None, typer.Option(help="Peak learning rate.")] = None,
+    learning_rate: Annotated[
+        float | None, typer.Option(help="Peak learning rate of the compact recipe.")
+    ] = None,
     positive_weight: Annotated[
-        float | None, typer.Option(help="Weight of the anchors near the path.")
+        float | None,
+        typer.Option(help="Weight of the anchors near the path, in the compact recipe."),
     ] = None,
     validate_every: Annotated[int | None, typer.Option(help="Steps between validations.")] = None,
     seed: Annotated[int | None, typer.Option(help="Seed of weights and order.")] = None,

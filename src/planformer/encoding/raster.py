@@ -7,11 +7,15 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from planformer.encoding.scale import NetworkScale
+from planformer.encoding.scale import NetworkScale, QueryKind
 from planformer.errors import InvalidMap, InvalidParameter
 
 _EDGE_TOLERANCE = 1e-6
 """In cells: 0.1 / 0.05 is meant to be two."""
+
+_MOST_PIXELS, _MOST_PIXELS_AT_ONCE = 2**26, 2**22
+"""Networks that are shown waves see windows of the map, others all of it at once, and attention
+takes memory with the square of its pixels. Both limits stand for about a gigabyte."""
 
 
 def network_map(blocked: ArrayLike, resolution: float, scale: NetworkScale) -> NDArray[np.uint8]:
@@ -31,7 +35,7 @@ def network_map(blocked: ArrayLike, resolution: float, scale: NetworkScale) -> N
         (H', W') uint8, 1 = blocked; both sizes are multiples of `scale.stride`.
 
     Raises:
-        InvalidMap: The map is not two-dimensional or empty.
+        InvalidMap: The map is not two-dimensional or empty, or too large for the network.
         InvalidParameter: The resolution is not finite and positive.
     """
     cells = np.asarray(blocked, dtype=bool)
@@ -40,9 +44,21 @@ def network_map(blocked: ArrayLike, resolution: float, scale: NetworkScale) -> N
     if not (math.isfinite(resolution) and resolution > 0):
         raise InvalidParameter(f"resolution must be finite and > 0 m; got {resolution}")
     ratio = scale.resolution / resolution
+    _check_size(cells.shape, ratio, scale)
     if abs(ratio - 1.0) > _EDGE_TOLERANCE:
         cells = _any_overlapped(_any_overlapped(cells, ratio).T, ratio).T
     return _pad(cells, scale)
+
+
+def _check_size(shape: tuple[int, ...], ratio: float, scale: NetworkScale) -> None:
+    """Few cells of a great size are many pixels."""
+    height, width = (size / ratio for size in shape)
+    most = _MOST_PIXELS if scale.query is QueryKind.WAVEFRONT else _MOST_PIXELS_AT_ONCE
+    if height * width > most:
+        raise InvalidMap(
+            f"a map of {height:.0f} x {width:.0f} pixels of {scale.resolution:g} m is too large "
+            f"for this network, which takes {most:,}; plan without a guide, or in a part of the map"
+        )
 
 
 def _any_overlapped(cells: NDArray[np.bool_], ratio: float) -> NDArray[np.bool_]:
@@ -50,7 +66,7 @@ def _any_overlapped(cells: NDArray[np.bool_], ratio: float) -> NDArray[np.bool_]
     size = cells.shape[0]
     edges = np.arange(max(1, math.ceil(size / ratio - _EDGE_TOLERANCE)) + 1) * ratio
     first = np.floor(edges[:-1] + _EDGE_TOLERANCE).astype(np.intp)
-    end = np.minimum(np.ceil(edges[1:] - _EDGE_TOLERANCE).astype(np.intp), size)
+    end = np.minimum(np.ceil(edges[1:] - _EDGE_TOLERANCE), size).astype(np.intp)
     sums = np.zeros((size + 1, cells.shape[1]), np.int32)
     np.cumsum(cells, axis=0, out=sums[1:])
     overlapped: NDArray[np.bool_] = sums[end] > sums[first]

@@ -34,9 +34,9 @@ class Region:
         mask: (H, W) bool, the map's cells inside the patches of the selected anchors.
         connected: Whether start and goal are connected within the region and free space.
         patch: Side of an anchor's patch in metres.
-        headings: (h, w) float64 predicted headings in rad in the world frame, None in the plane.
+        headings: (h, w) float64 headings in rad in the world frame, None if not predicted.
         yaw_deviations: (h, w) float64 standard deviation of the yaw round each heading in rad; None
-            in the plane, or for the same everywhere.
+            without headings, or for the same everywhere.
         offsets: (h, w, 2) float64 predicted way in metres, in the world frame, from each anchor to
             the path, None if not predicted. Samples are drawn round the anchors so moved, but
             inside the selected patches.

@@ -10,6 +10,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from planformer.errors import InvalidMap, InvalidParameter
 
+_MOST_CELLS = 2**31 - 1
+"""The core numbers the cells, and those of a ring round them, with 32 bits."""
+
 
 def as_mask(values: ArrayLike, name: str) -> NDArray[np.bool_]:
     """A C-contiguous bool copy of a two-dimensional array of bool or of 0 and 1.
@@ -20,6 +23,8 @@ def as_mask(values: ArrayLike, name: str) -> NDArray[np.bool_]:
     array = np.asarray(values)
     if array.ndim != 2 or array.size == 0:
         raise InvalidMap(f"{name} must be a non-empty (H, W) array; got shape {array.shape}")
+    if (array.shape[0] + 2) * (array.shape[1] + 2) > _MOST_CELLS:
+        raise InvalidMap(f"{name} has {array.size:,} cells; a map has fewer than {_MOST_CELLS:,}")
     if array.dtype != np.bool_:
         if array.dtype.kind not in "iuf" or not np.all((array == 0) | (array == 1)):
             raise InvalidMap(

@@ -268,6 +268,9 @@ class OccupancyGrid:
 
         Returns:
             World point (x, y), or None where every cell is blocked.
+
+        Raises:
+            InvalidParameter: A coordinate is not finite, or the radius is negative.
         """
         target = self.frame.to_local(as_xy(xy)) / self.resolution
         row, column = (int(i) for i in self.to_rc(xy))

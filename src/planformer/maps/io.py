@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import tokenize
+import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -64,7 +65,8 @@ def load_map(
 def save_map(grid: OccupancyGrid, path: PathLike) -> None:
     """Save a map; the suffix says the format. Files appear whole or not at all.
 
-    - .yaml, .yml: ROS map_server file with a PGM picture beside it; keeps everything.
+    - .yaml, .yml: ROS map_server file with a PGM picture beside it; keeps everything
+      (`save_ros_map` says how to load unknown cells again).
     - .npy, .png: the occupied cells alone, without resolution, origin and unknown cells.
 
     Args:
@@ -90,11 +92,17 @@ def save_map(grid: OccupancyGrid, path: PathLike) -> None:
         )
 
 
+_DAMAGED = (
+    *(OSError, ValueError, EOFError, SyntaxError, tokenize.TokenError, zipfile.BadZipFile),
+    *(MemoryError, OverflowError),  # a header that claims too much
+)
+
+
 def _load_array(file: Path, resolution: float) -> OccupancyGrid:
     with naming(file):
         data = read_bytes(file)
         try:
             array = np.load(io.BytesIO(data), allow_pickle=False)
-        except (OSError, ValueError, EOFError, SyntaxError, tokenize.TokenError) as error:
+        except _DAMAGED as error:
             raise InvalidMap(f"not a NumPy array file: {error}") from error
         return OccupancyGrid(array, resolution)

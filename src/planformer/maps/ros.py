@@ -154,7 +154,8 @@ def read_description(data: bytes) -> Mapping[Any, Any]:
     try:
         is_plain = _is_plain(data)
         content = yaml.safe_load(data) if is_plain else None
-    except (yaml.YAMLError, ValueError, RecursionError) as error:
+    except (yaml.YAMLError, ValueError, LookupError, AttributeError, RecursionError) as error:
+        # PyYAML lets errors of its conversions through: "!!bool x", "!!int ''", "!!timestamp x".
         raise InvalidMap(f"not valid YAML: {' '.join(str(error).split())}") from error
     if not is_plain:
         raise InvalidMap("a map file has no use for YAML aliases and deep nesting")

@@ -64,8 +64,10 @@ class PlanResult:
         length: Path length in metres, infinite without a path.
         vertices: Collision-free states in the search tree, the paper's measure of effort.
         planning_seconds: Wall-clock seconds of the search, its setup and the path's check included.
-        proposal_seconds: Wall-clock seconds of the region proposal, 0 without a guide.
-        region: The proposed region (a `planformer.Region`), None without a guide.
+        proposal_seconds: Wall-clock seconds of the region proposal, 0 without a guide; with the
+            loading of one given by name, which happens once.
+        region: The proposed region (a `planformer.Region`), None without a guide or where obstacles
+            separate start and goal.
         tree: The search tree if it was asked for.
     """
 

@@ -4,6 +4,7 @@ from planformer.errors import MissingExtra
 
 try:
     import fastapi as _fastapi  # noqa: F401
+    import fastapi_offline as _fastapi_offline  # noqa: F401
     import prometheus_client as _prometheus_client  # noqa: F401
     import python_multipart as _python_multipart  # noqa: F401
     import uvicorn as _uvicorn  # noqa: F401

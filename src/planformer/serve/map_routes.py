@@ -24,6 +24,8 @@ _GENERATORS: dict[MapKind, Callable[..., OccupancyGrid]] = {
     "maze": generate_maze,
     "indoor": generate_indoor,
 }
+_WAITING = (429, 503)
+"""What all that waits for a thread may be answered with."""
 _FOREVER = "public, max-age=31536000, immutable"
 
 
@@ -40,7 +42,7 @@ def map_routes(service: Service) -> APIRouter:
         "",
         status_code=201,
         summary="Upload a map",
-        responses=documented(400, 403, 413, 422, 507),
+        responses=documented(400, 403, 413, 422, 507, *_WAITING),
     )
     async def upload(
         files: Annotated[
@@ -66,7 +68,7 @@ def map_routes(service: Service) -> APIRouter:
         "/generate",
         status_code=201,
         summary="Generate a map",
-        responses=documented(400, 413, 422),
+        responses=documented(400, 413, 422, *_WAITING),
     )
     async def generate(request: GenerateRequest) -> MapInfo:
         cells = request.width / request.resolution * (request.height / request.resolution)
@@ -87,7 +89,7 @@ def map_routes(service: Service) -> APIRouter:
 
         return await service.in_thread(make)
 
-    @routes.get("/{map_id}", summary="Describe a map", responses=documented(404, 422))
+    @routes.get("/{map_id}", summary="Describe a map", responses=documented(404, 422, *_WAITING))
     async def describe(map_id: Annotated[MapId, Path()]) -> MapInfo:
         return (await service.in_thread(lambda: store.get(map_id))).info
 
@@ -100,7 +102,7 @@ def map_routes(service: Service) -> APIRouter:
         responses={
             200: {"content": {"image/png": {}}},
             304: {"description": "The picture that the client has is the map's."},
-            **documented(404, 422),
+            **documented(404, 422, *_WAITING),
         },
     )
     async def image(
@@ -116,7 +118,7 @@ def map_routes(service: Service) -> APIRouter:
         "/{map_id}/edit",
         status_code=201,
         summary="Draw on a map; the result is a new one",
-        responses=documented(400, 404, 413, 422),
+        responses=documented(400, 404, 413, 422, *_WAITING),
     )
     async def draw(map_id: Annotated[MapId, Path()], request: EditRequest) -> MapInfo:
         if (points := sum(len(stroke.points) for stroke in request.strokes)) > (
@@ -131,7 +133,10 @@ def map_routes(service: Service) -> APIRouter:
         return await service.in_thread(make)
 
     @routes.delete(
-        "/{map_id}", status_code=204, summary="Forget a map", responses=documented(403, 404, 422)
+        "/{map_id}",
+        status_code=204,
+        summary="Forget a map",
+        responses=documented(403, 404, 422, *_WAITING),
     )
     async def delete(map_id: Annotated[MapId, Path()]) -> None:
         await service.in_thread(lambda: store.delete(map_id))

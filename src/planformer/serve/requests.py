@@ -97,7 +97,7 @@ class RunOptions(Request):
     ] = AUTO
     threshold: Threshold = None
     exploration: Annotated[
-        FiniteFloat, Field(ge=0.0, le=1.0, description="Share of samples outside the region.")
+        FiniteFloat, Field(ge=0.0, le=1.0, description="Share of samples from the whole map.")
     ] = 0.0
     time_limit: Annotated[
         FiniteFloat, Field(gt=0.0, description="Wall-clock limit of the search [s].")

@@ -14,6 +14,7 @@ from planformer.serve.app import create_app
 from planformer.serve.settings import ServeSettings
 
 _GRACE_SECONDS = 5
+_ENDING = (signal.SIGINT, signal.SIGTERM)
 
 
 def serve(
@@ -41,9 +42,12 @@ def serve(
     )
     server = _Server(config, app.state.service.close, lambda: on_start(_url(listener)))
     # Uvicorn ends at these signals and raises them again when it has: to end is no failure here.
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, lambda *_: None)
-    asyncio.run(server.serve(sockets=[listener]))
+    before = {number: signal.signal(number, lambda *_: None) for number in _ENDING}
+    try:
+        asyncio.run(server.serve(sockets=[listener]))
+    finally:  # a second signal ends the wait for a map that is being decoded
+        for number, handler in before.items():
+            signal.signal(number, handler)
 
 
 class _Server(uvicorn.Server):

@@ -11,6 +11,9 @@ from planformer.serve.responses import MapInfo
 from planformer.serve.served_map import ServedMap
 from planformer.serve.settings import ServeSettings
 
+_LONGEST_SIDE = 65_535
+"""Of the pictures that browsers draw."""
+
 
 class MapStore:
     """Maps by their id; safe to use from several threads.
@@ -34,7 +37,7 @@ class MapStore:
             keep: Write it to the folder, if there is one.
 
         Raises:
-            TooLarge: It has too many cells.
+            TooLarge: It has too many cells, or too many in a row.
             StoreFull: The folder is full.
         """
         if served.grid.occupied.size > self._settings.map_cells:
@@ -42,6 +45,8 @@ class MapStore:
                 f"{served.info.columns} x {served.info.rows} cells are more than the "
                 f"{self._settings.map_cells:,} that a map may have here"
             )
+        if max(served.grid.shape) > _LONGEST_SIDE:
+            raise TooLarge(f"a map has at most {_LONGEST_SIDE:,} cells along a side here")
         if keep and self._folder is not None:
             with self._folder_lock:
                 self._folder.save(served)

@@ -17,6 +17,8 @@ _FORMATS = ("BMP", "JPEG", "PNG", "PPM")  # PPM is PGM too
 _SUFFIXES = (".bmp", ".jpeg", ".jpg", ".pbm", ".pgm", ".png", ".ppm")
 _DESCRIPTION_BYTES = 2**16
 _LONGEST_NAME = 80
+_SCAN, _MOST_SCANS = b"\xff\xda", 100
+"""Each scan of a progressive JPEG goes over the whole picture: many in a small file take hours."""
 
 
 def read_upload(
@@ -96,4 +98,6 @@ def _picture(name: str, data: bytes, map_cells: int) -> Picture:
             f"unknown map format {_suffix(name)!r}; known: .yaml with its picture, .map, "
             f"{', '.join(_SUFFIXES)}"
         )
+    if data.startswith(b"\xff\xd8") and data.count(_SCAN) > _MOST_SCANS:
+        raise InvalidMap(f"a JPEG has at most {_MOST_SCANS} scans here")
     return decode_picture(data, formats=_FORMATS, most_pixels=map_cells)
