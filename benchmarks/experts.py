@@ -64,7 +64,9 @@ def measure(problems: Iterator[tuple[Problem, float, float]], count: int, row: s
     ):
         seconds.append(taken)
         for limit in SECONDS:
-            found = search(problem, "RRTstar", limits=SearchLimits(limit), seed=number)
+            found = search(
+                problem, "RRTstar", refinement=0.0, limits=SearchLimits(limit), seed=number
+            )
             ratios[limit].append(found.length / length)
     return {
         "problems": count,

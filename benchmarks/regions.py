@@ -79,7 +79,14 @@ def measure(problem: Problem, proposer: OnnxProposer, seed: int) -> list[dict[st
     for rule, factor in RULES.items():
         value = 0.5 if factor is None else factor * connecting
         region = with_threshold(proposal, cells, problem, value)
-        found = search(problem, "RRTstar", region=region.sampling(), limits=limits, seed=seed)
+        found = search(
+            problem,
+            "RRTstar",
+            region=region.sampling(),
+            refinement=0.0,
+            limits=limits,
+            seed=seed,
+        )
         rows.append(
             {
                 "rule": rule,

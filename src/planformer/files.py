@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import fcntl
 import os
 import re
 import secrets
@@ -39,6 +40,27 @@ def remove_unfinished(folder: Path) -> None:
         unfinished = _UNFINISHED.fullmatch(file.name)
         if unfinished and not _runs(int(unfinished[1])):
             file.unlink(missing_ok=True)
+
+
+@contextmanager
+def locked(folder: Path, refusal: Exception) -> Iterator[None]:
+    """Hold a lock on a folder that the system releases however this process ends.
+
+    Args:
+        folder: The folder.
+        refusal: Raised where another process holds the lock.
+    """
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        try:
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise refusal from None
+        except OSError:
+            pass  # a file system without locks; files appear whole all the same
+        yield
+    finally:
+        os.close(descriptor)
 
 
 def write_files(contents: Mapping[Path, bytes]) -> None:

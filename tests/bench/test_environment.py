@@ -8,6 +8,13 @@ import planformer as pf
 from planformer.bench.environment import environment
 
 
+def test_the_command_can_be_pasted(monkeypatch):
+    monkeypatch.setattr("sys.argv", ["/x/planformer", "bench", "--systems", "RRT*,Lazy Theta*"])
+    assert environment()["command"] == "planformer bench --systems 'RRT*,Lazy Theta*'"
+    monkeypatch.setattr("sys.argv", ["benchmarks/ablation.py", "--data", "data"])
+    assert environment()["command"] == "python ablation.py --data data"
+
+
 def test_environment_says_what_a_reader_needs():
     facts = json.loads(json.dumps(environment()))
     assert facts["planformer"] == pf.__version__

@@ -58,6 +58,8 @@ def test_weights_start_another_training_and_teach_a_third(cli, data, tmp_path):
         (("--preset", "small"), "another network"),
         (("--steps", 40, "--learning-rate", 1e30), "another folder"),
         (("--initial", "no.pt", "--steps", 0), "steps"),
+        (("--recipe", "paper", "--learning-rate", 1e-4), "the recipe 'paper'; got 0.0001"),
+        (("--preset", "dubins"), "of a car; the data set's are of a point robot"),
     ],
 )
 def test_says_why_it_does_not_go_on(cli, data, tmp_path, options, message):

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import json
+import signal
 
 import pytest
 
@@ -33,6 +34,25 @@ def test_a_planner_is_trained_and_exported(cli, data, tmp_path, preset):
     assert made.exit_code == 0, made.output
     assert json.loads(made.stdout)["weights"] == str(file)
     assert file.is_file()
+
+
+def test_without_a_validation_there_is_no_loss_to_print(cli, data, tmp_path):
+    from planformer.training import open_paths
+    from planformer.training.mpnet import train_mpnet
+    from planformer.training.mpnet_config import MPNetTrainConfig
+
+    train_mpnet(
+        MPNetTrainConfig(steps=9, threads=1),
+        open_paths(data / "train"),
+        tmp_path,
+        validation=open_paths(data / "val"),
+        report=lambda progress: signal.raise_signal(signal.SIGINT),
+    )
+    settings = ("--preset", "mpnet", "--threads", 1, "--steps", 1)
+    done = cli("train", data, tmp_path, *settings, "--json")
+    assert done.exit_code == 0, done.output
+    assert json.loads(done.stdout)["validation_loss"] is None
+    assert "validation_loss" not in cli("train", data, tmp_path, *settings).output
 
 
 @pytest.mark.parametrize("preset", ["mpnet", "next-ks"])

@@ -15,7 +15,7 @@ import torch
 
 import planformer as pf
 from planformer.encoding import NetworkScale, QueryKind
-from planformer.errors import InvalidWeights
+from planformer.errors import InvalidParameter, InvalidWeights
 from planformer.export import export, onnx
 from planformer.models import (
     CompactBody,
@@ -110,6 +110,15 @@ def test_a_network_that_differs_is_not_written(tmp_path, monkeypatch):
     with pytest.raises(InvalidWeights, match="differs"):
         export(checkpoint, tmp_path / "a.onnx")
     assert [path.name for path in tmp_path.iterdir()] == ["a.pt"]
+
+
+def test_weights_are_not_replaced_without_their_card(tmp_path):
+    checkpoint = _checkpoint(tmp_path / "a.pt", MPTConfig(COMPACT))
+    (tmp_path / "b.onnx").write_bytes(b"old")
+    (tmp_path / "b.json").mkdir()
+    with pytest.raises(InvalidParameter, match=r"b\.json: cannot be written"):
+        export(checkpoint, tmp_path / "b.onnx")
+    assert (tmp_path / "b.onnx").read_bytes() == b"old"
 
 
 def test_refuses_another_suffix(tmp_path):

@@ -33,6 +33,21 @@ class StraightPaths:
         return blocked
 
 
+class CarPaths(StraightPaths):
+    """The same paths for a car that drives straight on."""
+
+    def __getitem__(self, index):
+        problem = super().__getitem__(index)
+        yaw = np.arctan2(*(problem.goal - problem.start)[::-1])
+        path = np.column_stack([problem.path, [yaw, yaw]])
+        return problem._replace(start=path[0], goal=path[-1], path=path)
+
+
 @pytest.fixture
 def straight_paths():
     return StraightPaths
+
+
+@pytest.fixture
+def car_paths():
+    return CarPaths

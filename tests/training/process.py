@@ -13,7 +13,7 @@ from conftest import StraightPaths
 from planformer.models import CompactBody, MPTConfig
 from planformer.training import TrainConfig, train
 
-NETWORK = MPTConfig(CompactBody(width=24, stem=8, blocks=1, heads=1, window=6))
+NETWORK = MPTConfig(CompactBody(width=24, stem=8, blocks=1, heads=1, window=6), offsets=True)
 
 
 def run(folder, steps, devices=1):

@@ -21,6 +21,7 @@ from planformer.models import (
     save_checkpoint,
 )
 from planformer.training import TrainConfig, train
+from planformer.training.sources import JoinedPaths
 
 NETWORK = MPTConfig(CompactBody(width=24, stem=8, blocks=1, heads=1, window=6))
 PAPER = MPTConfig(
@@ -84,6 +85,16 @@ def test_refuses_to_go_on_as_another_training(run, changes, message):
     assert run.file.read_bytes() == before
 
 
+def test_one_data_set_and_several_are_other_data(run, tmp_path, straight_paths):
+    run()
+    alone, joined = straight_paths(8), JoinedPaths([straight_paths(8)])
+    with pytest.raises(WeightsMismatch, match=r"other data: kinds .*; asked for parts "):
+        train(NETWORK, CONFIG, joined, tmp_path / "run", validation=alone)
+    train(NETWORK, CONFIG, joined, tmp_path / "joined", validation=alone)
+    with pytest.raises(WeightsMismatch, match=r"other data: parts .*; asked for kinds "):
+        train(NETWORK, CONFIG, alone, tmp_path / "joined", validation=alone)
+
+
 @pytest.mark.parametrize("share", [0.0, 0.1, 0.5, 0.99])
 def test_refuses_a_checkpoint_cut_short(run, share):
     run()
@@ -100,14 +111,17 @@ def test_refuses_weights_without_a_training(run):
         run()
 
 
-@pytest.mark.parametrize("recipe", ["compact", "paper"])
-def test_a_loss_that_is_no_number_ends_a_training_and_keeps_its_checkpoint(run, recipe):
+@pytest.mark.parametrize(
+    ("recipe", "advice"), [("compact", "smaller learning rate"), ("paper", "more warm-up steps")]
+)
+def test_a_loss_that_is_no_number_ends_a_training_and_keeps_its_checkpoint(run, recipe, advice):
     run(recipe=recipe)
     network, model, stored = load_checkpoint(run.file)
     next(model.parameters()).data[0] = float("nan")
     save_checkpoint(run.file, network, model, **stored)
     before = run.file.read_bytes()
-    with pytest.raises(TrainingDiverged, match=r"after 2 steps.*checkpoint\.pt holds") as caught:
+    message = rf"after 2 steps.*checkpoint\.pt holds.*{advice}"
+    with pytest.raises(TrainingDiverged, match=message) as caught:
         run(recipe=recipe, steps=4)
     assert caught.value.step == 2
     assert caught.value.learning_rate > 0

@@ -105,6 +105,40 @@ def test_a_network_with_offsets_is_punished_for_wrong_ones():
     assert float(difference) == pytest.approx(1.0 / OFFSET_UNIT)
 
 
+def test_the_losses_of_devices_that_share_a_batch_have_its_loss_as_their_mean():
+    """Each of three has one problem: with 20, with 3 and without positive anchors."""
+    labels, config = _labels(), TrainConfig(steps=1)
+    vectors = torch.randn(4, 3, 2, 10, 10, generator=torch.Generator().manual_seed(0))
+    inside = torch.ones_like(labels)
+    inside[2, :, 5:] = 0
+    batch = _batch(labels)._replace(heading=vectors[0] * labels, offset=vectors[1], inside=inside)
+    proposal = Proposal(vectors[2, :, :1], vectors[3], vectors[2])
+    shares = [
+        [type(whole)(*(tensor[i : i + 1] for tensor in whole)) for whole in (proposal, batch)]
+        for i in range(3)
+    ]
+
+    def counts(share):
+        """What a device divides by on its own."""
+        noted = []
+
+        def note(own):
+            noted.append(own)
+            return own
+
+        proposal_loss(*share, config, device_mean=note)
+        return noted
+
+    means = [sum(of_all) / 3 for of_all in zip(*map(counts, shares), strict=True)]
+
+    def loss(share):
+        of_all = iter(means)
+        return float(proposal_loss(*share, config, device_mean=lambda own: next(of_all)))
+
+    whole = float(proposal_loss(proposal, batch, config))
+    assert np.mean([loss(share) for share in shares]) == pytest.approx(whole, rel=1e-5)
+
+
 def test_imitation_is_best_where_pupil_and_teacher_agree():
     teacher = torch.linspace(-3, 3, 300).reshape(3, 1, 10, 10)
     inside = torch.ones_like(teacher)

@@ -15,7 +15,7 @@ import torch
 
 from planformer.data.dataset import PathProblem
 from planformer.errors import InvalidDataset, InvalidParameter, TrainingDiverged, WeightsMismatch
-from planformer.models.storage import load_mpnet
+from planformer.models.storage import load_mpnet, save_planner
 from planformer.training.mpnet import train_mpnet
 from planformer.training.mpnet_config import MPNetOptimizer, MPNetTrainConfig
 from planformer.training.mpnet_samples import WaypointSamples, _next_waypoint
@@ -56,7 +56,7 @@ def test_a_training_resumes_exactly(tmp_path):
             signal.raise_signal(signal.SIGINT)
 
     stopped = _train(tmp_path / "parts", steps=12, report=interrupt)
-    assert (stopped.step, stopped.finished) == (5, False)
+    assert (stopped.step, stopped.finished, stopped.validation_loss) == (5, False, None)
     assert _train(tmp_path / "parts", steps=12).finished
     assert torch.equal(_weights(tmp_path / "whole")[0], _weights(tmp_path / "parts")[0])
 
@@ -90,6 +90,23 @@ def test_a_diverged_training_says_so(tmp_path):
     with pytest.raises(TrainingDiverged) as caught:
         _train(tmp_path, steps=50, learning_rate=1e30)
     assert caught.value.step >= 1
+
+
+def test_a_gradient_without_measure_ends_a_training_and_keeps_its_checkpoint(tmp_path):
+    """The network predicts zeros, a finite loss; its last hidden layer's gradient overflows."""
+    _train(tmp_path, steps=1)
+    file = tmp_path / "checkpoint.pt"
+    model, stored = load_mpnet(file)
+    with torch.no_grad():
+        model.hidden[-2].bias.fill_(1e35)
+        for layer, weight in ((model.hidden[-1], 0.0), (model.output, 1e10)):
+            layer.weight.fill_(weight)
+            layer.bias.zero_()
+    save_planner(file, model, **stored)
+    before = file.read_bytes()
+    with pytest.raises(TrainingDiverged, match=r"loss 0\.\d+ or its gradient .* after 1 steps"):
+        _train(tmp_path, steps=2)
+    assert file.read_bytes() == before
 
 
 @pytest.mark.parametrize("change", [{"seed": 1}, {"waypoints": 3}, {"optimizer": "adagrad"}])

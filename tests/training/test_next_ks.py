@@ -55,6 +55,7 @@ def test_a_training_learns_and_logs(tmp_path):
     lines = (tmp_path / "log.csv").read_text().splitlines()
     assert lines[0] == "step,seconds,learning_rate,train_loss,loss,step_error,value_error"
     assert len(lines) == 5
+    assert train(tmp_path, steps=40, imitation=0.9).metrics == last
 
 
 def test_a_training_resumes_exactly_in_both_stages(tmp_path):

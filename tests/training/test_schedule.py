@@ -49,6 +49,14 @@ def test_refuses(values):
         TrainConfig.from_dict(values)
 
 
+@pytest.mark.parametrize("name", ["learning_rate", "weight_decay", "positive_weight"])
+def test_settings_of_the_compact_recipe_are_for_it_alone(name):
+    with pytest.raises(InvalidParameter, match=f"{name} .*'paper'; got 0.5"):
+        TrainConfig(recipe="paper", steps=1, **{name: 0.5})
+    assert name not in TrainConfig(recipe="paper", steps=1).to_dict()
+    assert TrainConfig(steps=1, **{name: 0.5}).to_dict()[name] == 0.5
+
+
 def test_settings_survive_a_dictionary():
     config = TrainConfig(recipe="paper", steps=5, threads=2)
     assert TrainConfig.from_dict(config.to_dict()) == config

@@ -78,6 +78,8 @@ def test_a_finished_training_is_left_as_it_is(tmp_path, straight_paths):
     first = train(NETWORK, CONFIG, data, tmp_path, validation=validation)
     again = train(NETWORK, CONFIG, data, tmp_path, validation=validation)
     assert again.step == first.step == 8
+    assert again.metrics == first.metrics
+    assert set(again.metrics) == {"all", "forest"}
     assert torch.equal(_weights(first), _weights(again))
 
 
@@ -117,25 +119,38 @@ def test_learns_a_few_problems_by_heart(tmp_path, straight_paths):
     assert metrics["connected"] == 1.0
 
 
-def test_learns_headings(tmp_path, straight_paths):
-    class Poses(straight_paths):
-        def __getitem__(self, index):
-            problem = super().__getitem__(index)
-            yaw = np.arctan2(*(problem.goal - problem.start)[::-1])
-            start, goal = (np.append(end, yaw) for end in (problem.start, problem.goal))
-            return problem._replace(start=start, goal=goal)
-
+def test_learns_headings(tmp_path, car_paths):
     losses = []
     config = replace(CONFIG, steps=60, learning_rate=5e-3, validate_every=60)
     train(
         replace(NETWORK, headings=True),
         config,
-        Poses(4),
+        car_paths(4),
         tmp_path,
-        validation=Poses(4),
+        validation=car_paths(4),
         report=lambda progress: losses.append(progress.loss),
     )
     assert np.mean(losses[-5:]) < 0.5 * np.mean(losses[:5])
+
+
+@pytest.mark.parametrize("headings", [False, True])
+def test_refuses_data_of_another_robot(tmp_path, straight_paths, car_paths, headings):
+    own, other = (car_paths, straight_paths) if headings else (straight_paths, car_paths)
+    message = "of a car; .* of a point robot" if headings else "of a point robot; .* of a car"
+    network = replace(NETWORK, headings=headings)
+    for data, validation in ((other(6), own(6)), (own(6), other(6))):
+        with pytest.raises(InvalidDataset, match=message):
+            train(network, CONFIG, data, tmp_path, validation=validation)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_the_papers_recipe_teaches_headings_to_the_papers_network_alone(tmp_path, car_paths):
+    config, data = replace(CONFIG, recipe="paper", steps=1), car_paths(6)
+    with pytest.raises(InvalidParameter, match="recipe 'compact'"):
+        train(replace(NETWORK, headings=True), config, data, tmp_path, validation=data)
+    assert list(tmp_path.iterdir()) == []
+    paper = replace(PAPER, headings=True)
+    assert train(paper, config, data, tmp_path, validation=data).finished
 
 
 def test_the_log_has_a_row_for_each_validation_and_kind(tmp_path, straight_paths):

@@ -32,14 +32,13 @@ function rosPair(cells: number) {
   ];
 }
 
+const ROOM = { name: "room.map", mimeType: "text/plain", buffer: Buffer.from(room(200)) };
+const BROKEN = { name: "broken.png", mimeType: "image/png", buffer: Buffer.from("not a picture") };
+
 test("an uploaded map is planned on, with ends far apart to begin with", async ({ page }) => {
   const playground = new Playground(page);
   await playground.open(link({}));
-  await page.locator("#upload-files").setInputFiles({
-    name: "room.map",
-    mimeType: "text/plain",
-    buffer: Buffer.from(room(200)),
-  });
+  await page.locator("#upload-files").setInputFiles(ROOM);
   await expect(page.locator("#facts")).toContainText("200 × 200 cells");
   await expect(page.locator("#facts")).toContainText("room");
   const { length } = await playground.figures();
@@ -64,15 +63,41 @@ test("a ROS map keeps its resolution and origin", async ({ page }) => {
 test("a damaged file is refused in words, and the map stays", async ({ page }) => {
   const playground = new Playground(page);
   await playground.open(link({}));
-  await page.locator("#upload-files").setInputFiles({
-    name: "broken.png",
-    mimeType: "image/png",
-    buffer: Buffer.from("not a picture"),
-  });
+  await page.locator("#upload-files").setInputFiles(BROKEN);
   await expect(page.getByRole("alert")).toContainText("broken.png");
   await expect(page.locator("#facts")).toContainText("forest 1");
   await page.getByRole("button", { name: "Close" }).first().click();
   await expect(page.getByRole("alert")).toBeHidden();
+});
+
+test("what is wrong with the start is told even after a damaged file", async ({ page }) => {
+  const playground = new Playground(page);
+  await playground.open(link({ edits: "w1,12,12" }));
+  await page.locator("#upload-files").setInputFiles(BROKEN);
+  const alert = page.getByRole("alert");
+  await expect(alert).toContainText("broken.png");
+  await playground.choose("Start");
+  await playground.clickAt(12, 12);
+  await expect(alert).toContainText("in collision at the start");
+  await alert.getByRole("button", { name: "Close" }).click();
+  await expect(alert).toBeHidden();
+});
+
+test("a list of maps that cannot be had is told of", async ({ page }) => {
+  const playground = new Playground(page);
+  const failures: string[] = [];
+  page.on("pageerror", ({ message }) => failures.push(message));
+  await playground.open(link({}));
+  await page.route("**/maps", (route) =>
+    route.request().method() === "GET"
+      ? route.fulfill({ status: 500, json: { error: "InternalError", message: "no list today" } })
+      : route.continue(),
+  );
+  await page.locator("#upload-files").setInputFiles(ROOM);
+  await expect(page.getByRole("alert")).toContainText("list today");
+  await expect(page.locator("#facts")).toContainText("room");
+  await expect(page.locator("#upload-files")).toHaveValue("");
+  expect(failures).toEqual([]);
 });
 
 test("of two maps, the one asked for last is shown", async ({ page }) => {

@@ -38,9 +38,17 @@ export class Playground {
     return this.panel().locator(`.handle.heading[data-end=${end}]`);
   }
 
-  /** Waits until a plan has ended, with a path or without. */
+  /** Waits until the plan for what the page shows has ended, with a path or without. */
   async planned(index = 0): Promise<void> {
+    await this.drawn();
     await expect(this.figure("status", index)).toHaveText(/^(found|none) \(/);
+  }
+
+  /** Waits until figures and pictures are those of the page's state: the next frame brings them. */
+  private async drawn(): Promise<void> {
+    await this.page.evaluate(
+      () => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))),
+    );
   }
 
   async figures(index = 0): Promise<Figures> {
@@ -84,6 +92,15 @@ export class Playground {
   async clickAt(x: number, y: number): Promise<void> {
     const at = await this.screen(x, y);
     await this.page.mouse.click(at.x, at.y);
+  }
+
+  /** Draws or erases along a line between two points of the world. */
+  async stroke(from: [number, number], to: [number, number]): Promise<void> {
+    const [begin, end] = [await this.screen(...from), await this.screen(...to)];
+    await this.page.mouse.move(begin.x, begin.y);
+    await this.page.mouse.down();
+    await this.page.mouse.move(end.x, end.y, { steps: 10 });
+    await this.page.mouse.up();
   }
 
   /** How many pixels of a panel's picture have nearly this colour. */

@@ -1,5 +1,5 @@
 import { expect, test } from "@playwright/test";
-import { link, Playground } from "./page";
+import { link, middle, Playground } from "./page";
 
 const PATH: [number, number, number] = [18, 87, 214];
 
@@ -68,16 +68,31 @@ test("replans while the goal is dragged", async ({ page }) => {
     .toBeLessThan(before.length - 2);
 });
 
+test("a drag that the system ends is followed by a whole plan", async ({ page }) => {
+  const playground = new Playground(page);
+  await playground.open(link({}));
+  const goal = playground.handle("goal");
+  await goal.evaluate((handle: HTMLElement) => {
+    let moves = 0;
+    handle.addEventListener("pointermove", ({ pointerId }) => {
+      if (++moves === 5) handle.releasePointerCapture(pointerId);
+    });
+  });
+  const whole = page.waitForRequest("**/plan/stream");
+  const { x, y } = await middle(goal);
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x - 60, y + 60, { steps: 12 });
+  await whole; // with the button still down
+  await page.mouse.up();
+});
+
 test("a wall changes the path, an undo brings it back", async ({ page }) => {
   const playground = new Playground(page);
   await playground.open(link({ time: "2" })); // a busy machine finds a way round within it too
   const before = await playground.figures();
   await playground.choose("Wall");
-  const [from, to] = [await playground.screen(3, 21), await playground.screen(17, 7)];
-  await page.mouse.move(from.x, from.y);
-  await page.mouse.down();
-  await page.mouse.move(to.x, to.y, { steps: 20 });
-  await page.mouse.up();
+  await playground.stroke([3, 21], [17, 7]);
   await expect(page.locator("#undo")).toBeEnabled();
   await expect
     .poll(async () => (await playground.figures()).length)
@@ -89,16 +104,25 @@ test("a wall changes the path, an undo brings it back", async ({ page }) => {
   await expect(page.locator("#undo")).toBeDisabled();
 });
 
+test("Ctrl+Z takes a stroke back, and Ctrl+Shift+Z does not", async ({ page }) => {
+  const playground = new Playground(page);
+  await playground.open(link({}));
+  await playground.choose("Wall");
+  await playground.stroke([8, 16], [12, 12]);
+  await expect(page.locator("#undo")).toBeEnabled();
+  await page.keyboard.press("Control+Shift+Z");
+  await playground.planned();
+  await expect(page.locator("#undo")).toBeEnabled();
+  await page.keyboard.press("Control+Z");
+  await expect(page.locator("#undo")).toBeDisabled();
+});
+
 test("an opening lets a path through that a wall had closed", async ({ page }) => {
   const playground = new Playground(page);
   await playground.open(link({ edits: "w0.3,0,12,24,12", time: "2" }));
   await expect(playground.figure("status")).toHaveText("none (unreachable)");
   await playground.choose("Erase");
-  const [from, to] = [await playground.screen(11, 11), await playground.screen(11, 13.2)];
-  await page.mouse.move(from.x, from.y);
-  await page.mouse.down();
-  await page.mouse.move(to.x, to.y, { steps: 10 });
-  await page.mouse.up();
+  await playground.stroke([11, 11], [11, 13.2]);
   await expect(playground.figure("status")).toHaveText(/^found/);
 });
 
@@ -172,6 +196,15 @@ test("a start in an obstacle is said in words, with a way out", async ({ page })
   expect(length).toBeGreaterThan(25);
 });
 
+test("a search that breaks off is told of", async ({ page }) => {
+  await page.route("**/plan/stream", (route) =>
+    route.fulfill({ contentType: "text/event-stream", body: ": at work\n\n" }),
+  );
+  await page.goto(`./${link({})}`);
+  await expect(page.getByRole("alert")).toContainText("does not answer");
+  await expect(new Playground(page).figure("status")).toHaveText("no plan");
+});
+
 test("layers can be hidden", async ({ page }) => {
   const playground = new Playground(page);
   await playground.open(link({}));
@@ -182,6 +215,31 @@ test("layers can be hidden", async ({ page }) => {
   await page.locator("[data-layer=tree]").uncheck();
   await page.locator("[data-layer=region]").check();
   await expect.poll(() => playground.pixels([179, 95, 147])).toBeGreaterThan(100); // its outline
+});
+
+test("nothing is drawn while nothing changes and the tree is hidden", async ({ page }) => {
+  await page.addInitScript(() => {
+    const counter = { frames: 0 };
+    const request = window.requestAnimationFrame.bind(window);
+    window.requestAnimationFrame = (callback) => {
+      counter.frames++;
+      return request(callback);
+    };
+    Object.assign(window, { counter });
+  });
+  const playground = new Playground(page);
+  await playground.open(link({}));
+  await page.locator("[data-layer=tree]").uncheck();
+  await page.locator("#plan").click();
+  await playground.planned();
+  const frames = () =>
+    page.evaluate(() => (window as never as { counter: { frames: number } }).counter.frames);
+  const framesInAWhile = async () => {
+    const before = await frames();
+    await page.waitForTimeout(500);
+    return (await frames()) - before;
+  };
+  await expect.poll(framesInAWhile).toBe(0);
 });
 
 test("drives along the path and stops at the goal", async ({ page }) => {

@@ -19,11 +19,7 @@ test("a link restores the problem on another page", async ({ page, context }) =>
   await playground.open(link({ robot: "dubins,0.25,0.7", run: "RRTstar,mpt-dubins,0.1" }));
   await page.locator("#add-run").click();
   await playground.choose("Wall");
-  const [from, to] = [await playground.screen(8, 16), await playground.screen(12, 12)];
-  await page.mouse.move(from.x, from.y);
-  await page.mouse.down();
-  await page.mouse.move(to.x, to.y, { steps: 10 });
-  await page.mouse.up();
+  await playground.stroke([8, 16], [12, 12]);
   await expect(page.locator("#undo")).toBeEnabled();
   await playground.choose("Move");
   await playground.drag(playground.handle("goal"), 0, 12);
@@ -46,10 +42,29 @@ test("a link restores the problem on another page", async ({ page, context }) =>
   await expect(second.panel(1).getByLabel("Guide")).toHaveValue("none");
 });
 
-test("a damaged link opens the first problem", async ({ page }) => {
+test("a damaged link opens the first problem, and says so", async ({ page }) => {
   const playground = new Playground(page);
   await playground.open("#map=jungle&start=here");
   await expect(page.locator("#facts")).toContainText("indoor");
+  await expect(page.getByRole("alert")).toContainText("This link is damaged");
+});
+
+test("a link whose map cannot be had for now stays until something changes", async ({ page }) => {
+  const playground = new Playground(page);
+  await page.route("**/maps/0000000000000000", (route) =>
+    route.fulfill({
+      status: 503,
+      headers: { "retry-after": "3600" },
+      json: { error: "ShuttingDown", message: "back in an hour" },
+    }),
+  );
+  const fragment = link({});
+  await playground.open(fragment);
+  await expect(page.locator("#facts")).toContainText("indoor");
+  await expect(page.getByRole("alert")).toContainText("in an hour");
+  expect(new URL(page.url()).hash).toBe(fragment);
+  await page.locator("#add-run").click();
+  await expect(page).toHaveURL(/map=indoor/);
 });
 
 test("the path can be taken away as CSV and JSON", async ({ page }) => {

@@ -72,11 +72,15 @@ function keepAddress(app: App): void {
   let written = "";
   app.store.subscribe(({ live }) => {
     if (live || app.link === written) return;
+    // A link whose map cannot be had for now stays until the visitor changes what is shown instead.
+    const standsIn = written === "" && app.mapError?.isTransient;
     written = app.link;
-    history.replaceState(null, "", written);
+    if (!standsIn) history.replaceState(null, "", written);
   });
   window.addEventListener("hashchange", () => {
-    if (location.hash !== written) void app.begin(location.hash);
+    if (location.hash === written) return;
+    written = "";
+    void app.begin(location.hash);
   });
 }
 

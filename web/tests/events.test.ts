@@ -29,6 +29,14 @@ test.each([1, 2, 7, 1000])("events arrive whole out of pieces of %i bytes", asyn
   expect(await all(STREAM, size)).toEqual(EVENTS);
 });
 
+test("an event may come in many pieces", async () => {
+  const data = "0123456789".repeat(10_000);
+  expect(await all(`data: ${data}\n\ndata: 1\n\n`, 100)).toEqual([
+    { event: "message", data },
+    { event: "message", data: "1" },
+  ]);
+});
+
 test("an event that was cut off is dropped", async () => {
   expect(await all("event: a\ndata: 1\n\nevent: b\ndata: 2", 5)).toEqual([
     { event: "a", data: "1" },

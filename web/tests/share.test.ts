@@ -28,9 +28,11 @@ const SHARED: Shared = {
   limits: { time: 1.5, seed: 4294967295 },
 };
 
+const LONGEST = 10;
+
 describe("a link", () => {
   test("restores the problem", () => {
-    expect(decode(encode(SHARED))).toEqual(SHARED);
+    expect(decode(encode(SHARED), LONGEST)).toEqual(SHARED);
   });
 
   test("restores a stored map and a new seed each time", () => {
@@ -39,12 +41,16 @@ describe("a link", () => {
       source: { kind: "stored" },
       limits: { time: 1, seed: null },
     };
-    expect(decode(encode(stored))).toEqual(stored);
+    expect(decode(encode(stored), LONGEST)).toEqual(stored);
   });
 
   test("survives odd names", () => {
     const run = { planner: "A&B=C D", guide: "ü#é ~", exploration: 0 };
-    expect(decode(encode({ ...SHARED, runs: [run] }))?.runs).toEqual([run]);
+    expect(decode(encode({ ...SHARED, runs: [run] }), LONGEST)?.runs).toEqual([run]);
+  });
+
+  test("asks for no more time than the server allows", () => {
+    expect(decode(encode(SHARED), 1)?.limits.time).toBe(1);
   });
 
   test("needs no escapes in usual cases", () => {
@@ -65,8 +71,14 @@ describe("a link", () => {
     encode(SHARED).replace("e0.4,7,8", "e0.4,7"),
     encode(SHARED).replace("seed=4", "seed=-4"),
     encode(SHARED).replace("time=1.5", "time=Infinity"),
+    encode(SHARED).replace("time=1.5", "time=0"),
+    encode(SHARED).replace("dubins,0.2,", "point,-1,"),
+    encode(SHARED).replace(",0.2,0.55", ",0.2,0"),
+    encode(SHARED).replace("mpt-dubins,0.5", "mpt-dubins,1.5"),
+    encode(SHARED).replace("seed=4294967295", "seed=4294967296"),
+    encode(SHARED).replace("seed=4294967295", "seed=0.5"),
   ])("that is damaged is refused: %s", (fragment) => {
-    expect(decode(fragment)).toBeNull();
+    expect(decode(fragment, LONGEST)).toBeNull();
   });
 });
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import platform
 import re
+import shlex
 import subprocess
 import sys
 from datetime import datetime, timezone
@@ -16,6 +17,8 @@ import planformer
 from planformer.processes import cores
 
 _SOURCES = Path(__file__).resolve().parents[3]
+_CODE = ("src", "cpp", "benchmarks/*.py")
+"""What measurements depend on; their own results do not change the code."""
 
 
 def environment() -> dict[str, Any]:
@@ -41,16 +44,17 @@ def machine() -> dict[str, Any]:
 def _command() -> str:
     program, arguments = Path(sys.argv[0]), sys.argv[1:]
     if program.name == "__main__.py":  # python -m planformer.cli
-        return " ".join(["planformer", *arguments])
-    return " ".join([f"python {program.name}" if program.suffix else program.name, *arguments])
+        return shlex.join(["planformer", *arguments])
+    return shlex.join([*(["python"] if program.suffix else []), program.name, *arguments])
 
 
 def _commit() -> str | None:
-    """Commit of the sources, with + for changes that are not committed; None outside of git."""
+    """Commit of the sources, with + for changes of the code since; None outside of git."""
     if not (_SOURCES / ".git").exists():
         return None
     head = _git("rev-parse", "--short", "HEAD")
-    return head + "+" * bool(_git("status", "--porcelain")) if head else None
+    changes = _git("status", "--porcelain", "--untracked-files=no", "--", *_CODE)
+    return head + "+" * bool(changes) if head else None
 
 
 def _git(*arguments: str) -> str:

@@ -117,8 +117,9 @@ def session_lines(summary: Mapping[str, Any]) -> list[str]:
 
 
 def _session_line(session: Mapping[str, Any]) -> str:
+    commit = session["commit"] or "unknown"
     return (
-        f"- `{session['command']}`, {session['date']}, commit {session['commit']}, planformer "
+        f"- `{session['command']}`, {session['date']}, commit {commit}, planformer "
         f"{session['planformer']}, OMPL {session['ompl']}, {session['cores']} cores of "
         f"{session['cpu']}"
     )

@@ -75,12 +75,12 @@ def complete(
     done = total - sum(len(part.problems) for part in missing)
     if report:
         report(done, total)
-    if missing:
-        results.begin(environment())
     jobs = [(by_name[part.row], problem) for part in missing for problem in part.problems]
     waiting = {(part.row, problem): part for part in missing for problem in part.problems}
     measured: dict[tuple[str, int], list[Record]] = {}
-    with closing(work_through(jobs, measure, workers)) as finished:
+    with results.held(), closing(work_through(jobs, measure, workers)) as finished:
+        if missing:
+            results.begin(environment())
         for job, outcome in finished:
             key = (job[0].name, job[1])
             measured[key] = lost(job, _cause(outcome)) if isinstance(outcome, Died) else outcome

@@ -81,8 +81,9 @@ def _ranks(tail: float) -> list[int]:
 def ratio_of_medians(
     numerator: NDArray[np.float64], denominator: NDArray[np.float64], axis: int
 ) -> Any:
-    """Median over median, a statistic for `bootstrap_interval`."""
-    return np.median(numerator, axis=axis) / np.median(denominator, axis=axis)
+    """Median over median, a statistic for `bootstrap_interval`; infinite over a median of zero."""
+    with np.errstate(divide="ignore"):
+        return np.median(numerator, axis=axis) / np.median(denominator, axis=axis)
 
 
 def percentile_90(values: NDArray[np.float64], axis: int) -> Any:

@@ -7,14 +7,15 @@ parts/ROW-FIRST-COUNT.csv   the records of COUNT problems, written when all are 
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Generic, Protocol, TypeVar
 
 from planformer.bench.records import from_csv, to_csv
 from planformer.errors import InvalidResults
-from planformer.files import whole_file
+from planformer.files import locked, whole_file
 
 MANIFEST = "bench.json"
 FORMAT = 2
@@ -97,6 +98,17 @@ class ResultFolder(Generic[Record]):
         content = {"settings": self._settings, "sessions": self._sessions}
         write_text(self.path / MANIFEST, json.dumps(content, indent=2) + "\n")
         self._parts.mkdir(exist_ok=True)
+
+    @contextmanager
+    def held(self) -> Iterator[None]:
+        """Keep other processes from measuring into the folder.
+
+        Raises:
+            InvalidResults: Another one does already.
+        """
+        self.path.mkdir(parents=True, exist_ok=True)
+        with locked(self.path, InvalidResults(f"another process measures into {self.path}")):
+            yield
 
     @property
     def sessions(self) -> list[dict[str, Any]]:

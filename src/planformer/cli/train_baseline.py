@@ -78,7 +78,7 @@ def train_baseline(
         print_json(facts)
     else:
         title = "training finished" if result.finished else "interrupted; the same command goes on"
-        print_facts(title, {name: str(value) for name, value in facts.items()})
+        print_facts(title, {name: str(v) for name, v in facts.items() if v is not None})
     if not result.finished:
         raise typer.Exit(INTERRUPTED)
 

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import fcntl
-import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 from planformer.data.spec import MANIFEST, DatasetSpec, differences, read_spec, write_spec
 from planformer.errors import InvalidDataset
-from planformer.files import remove_unfinished
+from planformer.files import locked, remove_unfinished
 
 
 @contextmanager
@@ -28,7 +26,7 @@ def claimed(folder: Path, spec: DatasetSpec) -> Iterator[list[str]]:
         raise InvalidDataset(f"{folder} is a file; choose another folder")
     with writing(folder):
         folder.mkdir(parents=True, exist_ok=True)
-    with _locked(folder):
+    with locked(folder, InvalidDataset(f"another process is generating {folder}")):
         _enter_settings(folder, spec)
         remove_unfinished(folder)
         yield [name for name in spec.shards() if not (folder / name).exists()]
@@ -64,19 +62,3 @@ def _enter_settings(folder: Path, spec: DatasetSpec) -> None:
         raise InvalidDataset(f"{folder} is neither empty nor a data set; choose another folder")
     with writing(folder / MANIFEST):
         write_spec(folder, spec)
-
-
-@contextmanager
-def _locked(folder: Path) -> Iterator[None]:
-    """Hold a lock that the system releases however this process ends."""
-    descriptor = os.open(folder, os.O_RDONLY)
-    try:
-        try:
-            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError as error:
-            raise InvalidDataset(f"another process is generating {folder}") from error
-        except OSError:
-            pass  # a file system without locks; shards appear whole all the same
-        yield
-    finally:
-        os.close(descriptor)

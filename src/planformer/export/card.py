@@ -9,37 +9,29 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from planformer.files import whole_file
 from planformer.models import PRESETS, MPTConfig
 from planformer.weights import CARD_VERSION
 
 
-def write_card(weights: Path, name: str, content: Mapping[str, Any]) -> Path:
-    """Describe an .onnx file in a JSON file of the same name beside it, replaced as a whole.
+def make_card(weights: bytes, name: str, facts: Mapping[str, Any]) -> bytes:
+    """The JSON text that describes an .onnx file.
 
     Its first keys: ``version`` of the format; ``name``; ``sha256`` of the .onnx file; ``commit`` of
     the source they were exported with, null outside a checkout.
 
     Args:
-        weights: The .onnx file.
+        weights: Content of the .onnx file.
         name: Name of the weights.
-        content: Further keys.
-
-    Returns:
-        The card's path.
+        facts: Further keys.
     """
     card = {
         "version": CARD_VERSION,
         "name": name,
-        "sha256": hashlib.sha256(weights.read_bytes()).hexdigest(),
+        "sha256": hashlib.sha256(weights).hexdigest(),
         "commit": _commit(),
-        **content,
+        **facts,
     }
-    path = weights.with_suffix(".json")
-    text = json.dumps(card, indent=2, allow_nan=False) + "\n"
-    with whole_file(path) as file:
-        file.write(text.encode())
-    return path
+    return (json.dumps(card, indent=2, allow_nan=False) + "\n").encode()
 
 
 def proposer_facts(

@@ -71,6 +71,7 @@ def export_mpnet(checkpoint: str | Path, path: str | Path, *, name: str | None =
 
     Raises:
         InvalidWeights: The checkpoint is damaged, or the exported network differs.
+        InvalidParameter: A file cannot be written.
         MissingExtra: onnx or ONNX Runtime is not installed.
     """
     path = onnx_file(path)

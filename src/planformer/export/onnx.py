@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from planformer.encoding import NetworkScale
 from planformer.errors import InvalidWeights, MissingExtra
-from planformer.export.card import proposer_facts, write_card
+from planformer.export.card import make_card, proposer_facts
 from planformer.export.graph import MAP, QUERY, DeployedProposer, example_inputs, to_onnx
-from planformer.files import whole_file
+from planformer.files import write_files
 from planformer.models import load_checkpoint
 
 TOLERANCE = 1e-4
@@ -56,6 +56,7 @@ def export(checkpoint: str | Path, path: str | Path, *, name: str | None = None)
 
     Raises:
         InvalidWeights: The checkpoint is damaged, or the exported network differs.
+        InvalidParameter: A file cannot be written.
         MissingExtra: onnx or ONNX Runtime is not installed.
     """
     path = onnx_file(path)
@@ -89,7 +90,7 @@ def onnx_file(path: str | Path) -> Path:
 def write_weights(
     path: Path, content: bytes, difference: float, name: str | None, facts: Mapping[str, Any]
 ) -> Exported:
-    """Write an exported network and its card, each as a whole.
+    """Write an exported network and its card; neither is replaced unless both can be.
 
     Args:
         path: The .onnx file to write, its folder is created; the card takes its name.
@@ -100,6 +101,7 @@ def write_weights(
 
     Raises:
         InvalidWeights: The difference exceeds `TOLERANCE`; nothing is written.
+        InvalidParameter: A file cannot be written.
     """
     if not difference <= TOLERANCE:
         raise InvalidWeights(
@@ -107,9 +109,9 @@ def write_weights(
             f"{TOLERANCE} is allowed"
         )
     path.parent.mkdir(parents=True, exist_ok=True)
-    with whole_file(path) as file:
-        file.write(content)
-    return Exported(path, write_card(path, name or path.stem, facts), difference)
+    card = path.with_suffix(".json")
+    write_files({path: content, card: make_card(content, name or path.stem, facts)})
+    return Exported(path, card, difference)
 
 
 def largest_difference(content: bytes, deployed: DeployedProposer, scale: NetworkScale) -> float:

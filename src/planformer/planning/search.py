@@ -128,6 +128,7 @@ def search(
     if not problem.is_connected:
         return _without_search(problem, PlanStatus.UNREACHABLE, [], started)
     limits = limits or SearchLimits()
+    core_region = None if region is None else _core_region(region, problem)
     preparation = time.perf_counter() - started
     answer = _core.plan(
         problem.blocked,
@@ -136,7 +137,7 @@ def search(
         problem.local_start.tolist(),
         problem.local_goal.tolist(),
         planner=planner,
-        region=None if region is None else _core_region(region, problem),
+        region=core_region,
         exploration=exploration,
         refinement=refinement,
         limits=_core.Limits(limits.seconds, limits.target_length, limits.max_vertices),

@@ -11,6 +11,9 @@ from typing import Any
 from planformer.errors import InvalidParameter
 from planformer.models import CompactBody, MPTConfig
 
+_COMPACT_ONLY = ("learning_rate", "weight_decay", "positive_weight")
+"""Settings of the compact recipe that the paper's takes no notice of."""
+
 
 class Recipe(str, Enum):
     """How a network is optimised.
@@ -57,7 +60,7 @@ class TrainConfig:
         checkpoint_seconds: Seconds between checkpoints.
 
     Raises:
-        InvalidParameter: A value is out of range, or the run would never end.
+        InvalidParameter: A value is out of range or for another recipe, or the run would never end.
     """
 
     recipe: Recipe = Recipe.COMPACT
@@ -102,6 +105,7 @@ class TrainConfig:
             value = getattr(self, name)
             if value is not None and not (math.isfinite(value) and value > 0):
                 raise InvalidParameter(f"{name} must be finite and > 0; got {value}")
+        self._require_used()
 
     def _require_at_least(self, least: int, names: str) -> None:
         for name in names.split():
@@ -109,9 +113,25 @@ class TrainConfig:
             if value is not None and not value >= least:
                 raise InvalidParameter(f"{name} must be >= {least}; got {value}")
 
+    def _require_used(self) -> None:
+        """Refuse a setting that would change nothing."""
+        for name in self._unused:
+            value = getattr(self, name)
+            if value != getattr(type(self), name):
+                raise InvalidParameter(
+                    f"{name} belongs to the recipe 'compact' and changes nothing in the recipe "
+                    f"'paper'; got {value}: leave it out or choose the recipe 'compact'"
+                )
+
+    @property
+    def _unused(self) -> tuple[str, ...]:
+        """Names of the settings that the recipe takes no notice of."""
+        return _COMPACT_ONLY if self.recipe is Recipe.PAPER else ()
+
     def to_dict(self) -> dict[str, Any]:
-        """The settings as JSON-compatible values."""
-        return {**asdict(self), "recipe": self.recipe.value}
+        """The settings that the recipe uses, as JSON-compatible values."""
+        values = {**asdict(self), "recipe": self.recipe.value}
+        return {name: value for name, value in values.items() if name not in self._unused}
 
     @classmethod
     def from_dict(cls, values: Mapping[str, Any]) -> TrainConfig:

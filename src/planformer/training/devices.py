@@ -7,7 +7,7 @@ from types import TracebackType
 from typing import TYPE_CHECKING
 
 import torch
-from torch import nn
+from torch import Tensor, nn
 
 from planformer.errors import InvalidParameter, MissingExtra
 from planformer.training.config import TrainConfig
@@ -76,9 +76,19 @@ class Devices:
         if self._fabric is None:
             return list(values)
         own = torch.tensor(values, dtype=torch.float64, device=self.device)
+        return self.mean_tensor(own).tolist()
+
+    def mean_tensor(self, own: Tensor) -> Tensor:
+        """The mean of a tensor over the devices, the same on each; it has no gradient.
+
+        Args:
+            own: This process's tensor of floats, which is overwritten.
+        """
+        if self._fabric is None:
+            return own
         mean = self._fabric.all_reduce(own, reduce_op="mean")
-        assert isinstance(mean, torch.Tensor)
-        return mean.tolist()
+        assert isinstance(mean, Tensor)
+        return mean
 
 
 def _launched(config: TrainConfig) -> Fabric:

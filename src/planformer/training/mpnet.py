@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import torch
 import torch.nn.functional as F
-from torch import Tensor
+from torch import Tensor, nn
 
 from planformer.errors import TrainingDiverged
 from planformer.files import remove_unfinished
@@ -52,13 +52,13 @@ class MPNetTrainResult:
         checkpoint: The file with weights and state.
         step: Optimiser steps taken.
         finished: False where it was interrupted; the same call resumes it.
-        validation_loss: The last one measured, NaN where there was none.
+        validation_loss: The last one measured, None where there was none.
     """
 
     checkpoint: Path
     step: int
     finished: bool
-    validation_loss: float
+    validation_loss: float | None
 
 
 def train_mpnet(
@@ -92,7 +92,8 @@ def train_mpnet(
         InvalidParameter: The device is not usable.
         InvalidWeights: The folder's checkpoint is damaged.
         WeightsMismatch: It is of another network, other data or other settings.
-        TrainingDiverged: The loss is infinite or no number; the folder keeps the last checkpoint.
+        TrainingDiverged: The loss or its gradient is infinite or no number; the folder keeps the
+            last checkpoint.
     """
     if config.threads is not None:
         torch.set_num_threads(config.threads)
@@ -102,7 +103,7 @@ def train_mpnet(
         remove_unfinished(folder)
         run = _Run(config, data, validation, folder)
         finished = run.until_done(interrupt, report or (lambda _: None))
-    last = run.state.history[-1]["validation_loss"] if run.state.history else math.nan
+    last = run.state.history[-1]["validation_loss"] if run.state.history else None
     return MPNetTrainResult(folder / CHECKPOINT, run.state.step, finished, last)
 
 
@@ -161,9 +162,10 @@ class _Run:
             group["lr"] = rate
         optimizer.zero_grad(set_to_none=True)
         loss = self._loss(batch, int(rng.integers(2**63)))
-        if not math.isfinite(value := float(loss.detach())):
-            raise self._diverged(value, rate)
         loss.backward()  # type: ignore[no-untyped-call]
+        norm = nn.utils.clip_grad_norm_(self.state.model.parameters(), math.inf)
+        if not math.isfinite((value := float(loss.detach())) + float(norm)):
+            raise self._diverged(value, rate)
         optimizer.step()
         return value
 
@@ -190,8 +192,8 @@ class _Run:
     def _diverged(self, loss: float, rate: float) -> TrainingDiverged:
         step = self.state.step
         return TrainingDiverged(
-            f"loss {loss} after {step} steps, at a learning rate of {rate:.3g}: try a smaller "
-            f"learning rate in another folder",
+            f"loss {loss} or its gradient is no finite number after {step} steps, at a learning "
+            f"rate of {rate:.3g}: try a smaller learning rate in another folder",
             step=step,
             learning_rate=rate,
         )

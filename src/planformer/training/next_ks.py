@@ -32,6 +32,7 @@ from planformer.training.next_ks_config import NextTrainConfig
 from planformer.training.next_ks_samples import Lessons, make_lessons, searched_paths
 from planformer.training.sources import PathSource, load_example
 
+_METRICS = ("loss", "step_error", "value_error")
 _MAX_GRADIENT_NORM = 1.0
 _EXPLORATION = (1.0, 0.1)
 """Probability of RRT's samples in the first third of the searches, and at their end."""
@@ -170,7 +171,7 @@ class _Run:
         self.validation = _validation_lessons(validation, config)
         self.state = self._state()
         self.began = time.perf_counter() - self.state.seconds
-        self.metrics: dict[str, float] = {}
+        self.metrics = {name: row[name] for row in self.state.history[-1:] for name in _METRICS}
 
     def until_done(
         self, interrupt: GracefulInterrupt, report: Callable[[NextProgress], None]

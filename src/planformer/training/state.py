@@ -30,6 +30,9 @@ _MAY_CHANGE = (
 
 _NEW_FOLDER = ", with this file as the initial weights to start from"
 
+_NO_METRICS = {"step", "seconds", "learning_rate", "train_loss", "kind"}
+"""What a row of the history says beside a validation's metrics."""
+
 
 @dataclass
 class TrainState:
@@ -58,6 +61,14 @@ class TrainState:
         for kind, values in metrics.items():
             common = {"step": self.step, "seconds": round(self.seconds, 1)}
             self.history.append({**common, **measured, "kind": kind, **values})
+
+    def last_metrics(self) -> dict[str, Metrics]:
+        """The last validation by kind of map; empty where there was none."""
+        return {
+            row["kind"]: {name: value for name, value in row.items() if name not in _NO_METRICS}
+            for row in self.history
+            if row["step"] == self.history[-1]["step"]
+        }
 
     def save(self, folder: Path, config: TrainConfig) -> None:
         """Write checkpoint and log; each file is replaced as a whole."""
@@ -148,11 +159,16 @@ def _flat(network: MPTConfig) -> dict[str, Any]:
 def _require_same(
     what: str, theirs: Mapping[str, Any], ours: Mapping[str, Any], remedy: str
 ) -> None:
-    """Compare what both name; what only one does is of another version or kind."""
-    names = [name for name in theirs if name in ours and theirs[name] != ours[name]]
-    if names:
+    """Compare what both name: what only one does may be of another version.
+
+    One data set and several name nothing in common, and are not the same.
+    """
+    common = [name for name in theirs if name in ours]
+    names = [name for name in common if theirs[name] != ours[name]]
+    if names or not common:
         there, here = (
-            ", ".join(f"{name} {values[name]!r:.80}" for name in names) for values in (theirs, ours)
+            ", ".join(f"{name} {values[name]!r:.80}" for name in names or values)
+            for values in (theirs, ours)
         )
         raise WeightsMismatch(f"{what}: {there}; asked for {here}: {remedy}")
 

@@ -18,6 +18,7 @@ from planformer.files import remove_unfinished
 from planformer.models import MPTConfig
 from planformer.training.config import Recipe, TrainConfig
 from planformer.training.devices import Devices
+from planformer.training.fit import require_fit
 from planformer.training.folder import CHECKPOINT
 from planformer.training.interrupt import GracefulInterrupt
 from planformer.training.losses import imitation_loss, proposal_loss
@@ -33,6 +34,11 @@ from planformer.training.state import (
 from planformer.training.validation import Metrics, validate
 
 _MAX_GRADIENT_NORM = {Recipe.COMPACT: 1.0, Recipe.PAPER: math.inf}
+_GENTLER = {
+    Recipe.COMPACT: "a smaller learning rate",
+    Recipe.PAPER: "more warm-up steps or the recipe 'compact'",
+}
+"""What may help a training that diverged."""
 
 
 @dataclass(frozen=True)
@@ -103,14 +109,15 @@ def train(
         How it ended.
 
     Raises:
-        InvalidDataset: There are fewer problems than a batch needs.
-        InvalidParameter: The device is not usable.
+        InvalidDataset: There are fewer problems than a batch needs, or they are another robot's.
+        InvalidParameter: The device is not usable, or the recipe does not suit the network.
         InvalidWeights: The folder's checkpoint, the initial weights or the teacher are damaged.
         WeightsMismatch: They do not fit: another network, other data, other settings.
         TrainingDiverged: The loss or its gradient is infinite or no number; the folder keeps the
             last checkpoint.
         MissingExtra: More than one device, and Lightning Fabric is not installed.
     """
+    require_fit(network, config.recipe, data, validation)
     if config.threads is not None:
         torch.set_num_threads(config.threads)
     folder = Path(output)
@@ -161,7 +168,6 @@ class _Run:
         )
         self.model = devices.synchronised(state.model)
         self.began = time.perf_counter() - state.seconds
-        self.metrics: dict[str, Metrics] = {}
 
     def until_done(self, batches: Iterator[Batch], interrupt: GracefulInterrupt) -> TrainResult:
         state, config = self.state, self.config
@@ -180,7 +186,7 @@ class _Run:
                 saved = state.seconds
             self._report(Progress(state.step, state.seconds, rate, loss, metrics))
         self._save()
-        return TrainResult(self.folder / CHECKPOINT, state.step, finished, self.metrics)
+        return TrainResult(self.folder / CHECKPOINT, state.step, finished, state.last_metrics())
 
     def _read_clock(self) -> None:
         """Set the training time, the same on all devices."""
@@ -225,10 +231,12 @@ class _Run:
         with torch.autocast(occupancy.device.type, torch.bfloat16, enabled=self.config.bfloat16):
             proposal = self.model(occupancy, batch.query)
             taught = None if self.teacher is None else self.teacher(occupancy, batch.query)
-        loss = proposal_loss(proposal, batch, self.config)
+        mean = self.devices.mean_tensor
+        loss = proposal_loss(proposal, batch, self.config, device_mean=mean)
         if taught is None:
             return loss
-        return 0.5 * loss + 0.5 * imitation_loss(proposal.logits, taught.logits, batch.inside)
+        imitation = imitation_loss(proposal.logits, taught.logits, batch.inside, device_mean=mean)
+        return 0.5 * loss + 0.5 * imitation
 
     def _diverged(self, loss: float, rate: float) -> TrainingDiverged:
         file, step = self.folder / CHECKPOINT, self.state.step
@@ -237,7 +245,7 @@ class _Run:
         )
         return TrainingDiverged(
             f"loss {loss} or its gradient is no finite number after {step} steps, at a learning "
-            f"rate of {rate:.3g}; {kept}: try a smaller learning rate in another folder",
+            f"rate of {rate:.3g}; {kept}: try {_GENTLER[self.config.recipe]} in another folder",
             step=step,
             learning_rate=rate,
         )
@@ -250,7 +258,6 @@ class _Run:
         torch.manual_seed(0)
         metrics = validate(state.model, self.validation, state.network.scale, self.config)
         state.record(metrics, learning_rate=rate, train_loss=loss)
-        self.metrics = metrics
         return metrics
 
     def _save(self) -> None:

@@ -72,9 +72,20 @@ def test_every_figure_can_be_planned():
 def test_figures_are_written_with_their_plans(tmp_path):
     files = write_plan_figures(tmp_path / "new", ["prediction"])
     assert [file.name for file in files] == ["prediction.png", "figures.json"]
-    record = json.loads(files[-1].read_text())
-    assert [plan["system"] for plan in record["figures"]["prediction"]] == ["MPT-RRT*"]
+    record = json.loads(files[-1].read_text())["prediction"]
+    assert [plan["system"] for plan in record["plans"]] == ["MPT-RRT*"]
     assert record["environment"]["planformer"]
+
+
+def test_what_is_noted_of_other_figures_stays(tmp_path):
+    (tmp_path / "figures.json").write_text('{"cars": {"seed": 3}, "gone": {}}')
+    *_, record = write_plan_figures(tmp_path, ["prediction"])
+    noted = json.loads(record.read_text())
+    assert noted["cars"] == {"seed": 3}
+    assert [*noted] == ["cars", "prediction"]
+    record.write_text("damaged")
+    write_plan_figures(tmp_path, ["prediction"])
+    assert [*json.loads(record.read_text())] == ["prediction"]
 
 
 def test_bad_requests_are_refused(tmp_path):

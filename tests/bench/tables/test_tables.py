@@ -7,7 +7,7 @@ import pytest
 
 from planformer.bench.tables import TableSettings, run_table
 from planformer.bench.tables.measure import lost_trials, measure_problem
-from planformer.bench.tables.report import PAPER
+from planformer.bench.tables.report import PAPER, markdown, short_markdown
 from planformer.bench.tables.summary import summarise
 from planformer.bench.tables.systems import (
     CAR_SYSTEMS,
@@ -17,6 +17,7 @@ from planformer.bench.tables.systems import (
     fingerprints,
 )
 from planformer.errors import InvalidParameter, InvalidResults
+from planformer.files import locked
 
 QUICK = TableSettings(slack=1.05, seconds=60.0, systems=("MPT-RRT*", "BIT*", "Lazy Theta*"))
 
@@ -86,6 +87,33 @@ def test_failures_count_at_the_limit(small_row, make_trial):
     assert line["causes"] == {"time limit": 5}
 
 
+def test_gains_are_ratios_of_medians_to_rrtstars(small_row, make_trial):
+    slow = [make_trial(problem=i, planning_seconds=0.2 + i, vertices=400) for i in range(5)]
+    fast = [make_trial("MPT-RRT*", i, planning_seconds=0.01, vertices=50) for i in range(5)]
+    grid = [make_trial("Lazy Theta*", i, planning_seconds=0.01, vertices=0) for i in range(5)]
+    lines = summarise([*slow, *fast, *grid], [small_row], limit=9.0)
+    assert [line["system"] for line in lines] == ["RRT*", "MPT-RRT*", "Lazy Theta*"]
+    assert lines[0]["seconds_gain"] is None
+    assert lines[1]["seconds_gain"]["value"] == pytest.approx(2.21 / 0.02)
+    assert lines[1]["seconds_gain"]["low"] < lines[1]["seconds_gain"]["high"]
+    assert lines[1]["vertices_gain"] == {"value": 8.0, "low": 8.0, "high": 8.0}
+    assert lines[2]["vertices_gain"] is None  # it has no tree
+    assert summarise(fast, [small_row], limit=9.0)[0]["seconds_gain"] is None
+
+
+def test_replaced_problems_are_told(small_row, make_trial):
+    trials = [make_trial(problem=i, replaced=i) for i in range(3)]
+    summary = {"sessions": [], "lines": summarise(trials, [small_row], limit=2.0)}
+    assert "\n2 of these problems stand in for others" in markdown(summary)
+    assert "stand in" not in short_markdown(summary)
+
+
+def test_a_grid_search_beyond_the_limit_has_no_path(small_row):
+    settings = TableSettings(seconds=1e-7, systems=("Lazy Theta*",))
+    (trial,) = measure_problem(settings, (small_row, 0))
+    assert (trial.solved, trial.cause) == (False, "no path: time limit")
+
+
 def test_lost_problems_count_as_failures(small_row):
     trials = lost_trials(QUICK, (small_row, 4), "the process died")
     assert [t.cause for t in trials] == ["the process died"] * 3
@@ -108,6 +136,16 @@ def test_a_table_is_completed_and_other_settings_are_refused(tmp_path):
         changed = dataclasses.replace(settings, **other)
         with pytest.raises(InvalidResults, match=next(iter(other))):
             run_table(tmp_path / "t", "table3", problems=1, settings=changed)
+
+
+def test_two_runs_in_one_folder_are_refused(tmp_path):
+    settings = TableSettings(slack=1.2, seconds=60.0, systems=("Lazy Theta*",))
+    with (
+        locked(tmp_path, AssertionError()),
+        pytest.raises(InvalidResults, match="another process measures"),
+    ):
+        run_table(tmp_path, "table1", problems=1, settings=settings)
+    assert run_table(tmp_path, "table1", problems=1, settings=settings)["lines"]
 
 
 def test_results_of_a_system_that_was_another_are_refused(tmp_path, monkeypatch):

@@ -8,14 +8,19 @@ export interface ServerEvent {
 export async function* readEvents(body: ReadableStream<Uint8Array>): AsyncGenerator<ServerEvent> {
   const reader = body.getReader();
   const decoder = new TextDecoder();
-  let text = "";
+  let pieces: string[] = []; // of an event that has not ended
+  let tail = ""; // the last character: the blank line at an event's end may come in two pieces
   try {
     while (true) {
       const { done, value } = await reader.read();
       if (done) return;
-      text += decoder.decode(value, { stream: true }).replaceAll("\r", "");
-      const blocks = text.split("\n\n");
-      text = blocks.pop()!;
+      const piece = decoder.decode(value, { stream: true }).replaceAll("\r", "");
+      pieces.push(piece);
+      const ended = (tail + piece).includes("\n\n");
+      tail = piece.at(-1) ?? tail;
+      if (!ended) continue; // and what came before is not looked at again
+      const blocks = pieces.join("").split("\n\n");
+      pieces = [blocks.pop()!];
       for (const block of blocks) {
         const event = parseEvent(block);
         if (event) yield event;

@@ -1,7 +1,15 @@
 /** What a visitor can do; the rest of the page shows the outcome. */
 
 import { ApiError, type Client } from "../api/client";
-import type { GenerateRequest, MapInfo, MapKind, Options, RobotKind, Stroke } from "../api/types";
+import type {
+  GenerateRequest,
+  MapInfo,
+  MapKind,
+  Options,
+  PlanResponse,
+  RobotKind,
+  Stroke,
+} from "../api/types";
 import { clampToMap, toLocal } from "../geometry/frame";
 import type { Point, Pose } from "../geometry/points";
 import { farApart } from "../model/ends";
@@ -21,6 +29,8 @@ const DEFAULT_SIZES: Record<RobotKind, Pick<RobotModel, "radius" | "turningRadiu
 };
 
 const MOST_RUNS = 4;
+/** Each keeps the cells of a map. */
+const MOST_UNDOS = 20;
 
 /** The first picture: the README's problem. */
 const RESOLUTION = 0.05;
@@ -36,17 +46,24 @@ const FIRST_ENDS: Record<End, Pose> = {
   goal: { x: 2, y: 22.4, yaw: 1.57 },
 };
 
+const DAMAGED_LINK = {
+  error: "DamagedLink",
+  message: "This link is damaged; the first problem is shown instead.",
+};
+
 export class App {
   readonly store: Store;
   readonly planning: Planning;
-  /** What went wrong with a map, in the server's words. */
+  /** What went wrong with a map or a link, unless a plan was refused since. */
   mapError: ApiError | null = null;
   raster: Raster | null = null;
   private readonly maps: Maps;
   private loaded: LoadedMap | null = null;
   private former: LoadedMap[] = [];
-  /** The map that was asked for last. */
-  private wanted: (() => Promise<LoadedMap>) | null = null;
+  /** Maps that were asked for: only the last is wanted. */
+  private asked = 0;
+  /** Maps that were shown so far; drawing on one does not make another. */
+  generation = 0;
   /** Strokes that the server does not know yet. */
   strokes: Stroke[] = [];
   private editing: Promise<void> = Promise.resolve();
@@ -57,7 +74,9 @@ export class App {
     private readonly changed: () => void,
   ) {
     this.maps = new Maps(client);
-    this.planning = new Planning(client, changed);
+    this.planning = new Planning(client, changed, () => {
+      this.mapError = null; // the newer error is told
+    });
     this.store = new Store({
       problem: null,
       runs: [this.defaultRun("point")],
@@ -83,21 +102,41 @@ export class App {
     return encode({ source, id: map.id, robot, start, goal, runs, limits });
   }
 
+  /** What a run has found for the problem as it is; null while it has not ended. */
+  result(index: number): PlanResponse | null {
+    const trace = this.planning.traces[index];
+    return trace?.phase === "done" && !this.store.current.live ? trace.response : null;
+  }
+
+  /** Shows what a link asks for; the first problem if there is none, or it cannot be had. */
   async begin(fragment: string): Promise<void> {
-    const shared = decode(fragment);
-    if (shared) {
-      const loaded = await this.attempt(() => this.maps.shared(shared));
-      if (loaded) {
-        const { robot, limits } = shared;
-        const runs = this.runsFor(robot.kind, shared.runs.slice(0, this.mostRuns));
-        this.former = [];
-        this.show(loaded, shared, { limits, runs });
-        return;
-      }
+    const isWanted = this.want();
+    const shared = decode(fragment, this.options.limits.plan_seconds);
+    this.mapError = shared || fragment === "" ? null : new ApiError(400, DAMAGED_LINK);
+    const loaded = shared && (await this.attempt(() => this.maps.shared(shared), isWanted));
+    if (shared && loaded) {
+      const { robot, limits } = shared;
+      const runs = this.runsFor(robot.kind, shared.runs.slice(0, this.mostRuns));
+      this.replace(loaded, shared, { limits, runs });
+    } else if (isWanted()) {
+      await this.beginAnew(isWanted);
     }
+  }
+
+  private async beginAnew(isWanted: () => boolean): Promise<void> {
+    const keepError = this.mapError !== null; // of the link
+    const first = await this.attempt(() => this.maps.generate(FIRST_MAP), isWanted, keepError);
     const robot: RobotModel = { kind: "point", ...DEFAULT_SIZES.point };
-    const first = await this.attempt(() => this.maps.generate(FIRST_MAP), shared !== null);
-    if (first) this.show(first, { robot, ...FIRST_ENDS });
+    if (first) this.replace(first, { robot, ...FIRST_ENDS });
+  }
+
+  /** The maps that the server has; null if it does not say. */
+  storedMaps(): Promise<MapInfo[] | null> {
+    return this.attempt(
+      () => this.client.maps(),
+      () => true,
+      true,
+    );
   }
 
   generate(kind: MapKind, seed: number, side: number): Promise<void> {
@@ -118,15 +157,17 @@ export class App {
   draw(stroke: Stroke): void {
     this.strokes = [...this.strokes, stroke];
     this.changed();
-    this.editing = this.editing.then(async () => {
+    this.inTurn(async (isShown) => {
       const before = this.loaded!;
-      const after = await this.attempt(() => this.maps.edit(before, stroke));
-      this.strokes = this.strokes.filter((other) => other !== stroke);
-      if (after) {
-        this.former.push(before);
+      try {
+        const after = await this.attempt(() => this.maps.edit(before, stroke), isShown);
+        if (!after) return;
+        this.former = [...this.former, before].slice(-MOST_UNDOS);
         this.show(after, this.store.current.problem!);
+      } finally {
+        this.strokes = this.strokes.filter((other) => other !== stroke);
+        this.changed();
       }
-      this.changed();
     });
   }
 
@@ -134,9 +175,22 @@ export class App {
     return this.former.length > 0;
   }
 
+  /** Takes back the last stroke, even one that the server is still drawing. */
   undo(): void {
-    const before = this.former.pop();
-    if (before) this.show(before, this.store.current.problem!);
+    this.inTurn(async () => {
+      const before = this.former.pop();
+      if (before) this.show(before, this.store.current.problem!);
+    });
+  }
+
+  /** Changes the map that is shown, after all changes before; not if another is shown by then. */
+  private inTurn(change: (isShown: () => boolean) => Promise<void>): void {
+    const { generation } = this;
+    const isShown = () => generation === this.generation;
+    const before = this.editing.catch(() => {}); // what failed was reported, and stops nothing
+    this.editing = before.then(async () => {
+      if (isShown()) await change(isShown);
+    });
   }
 
   /** Moves start or goal, to the edge of the map at most. */
@@ -150,18 +204,18 @@ export class App {
   swapEnds(): void {
     const { problem } = this.store.current;
     if (!problem) return;
-    this.store.update({ problem: { ...problem, start: problem.goal, goal: problem.start } });
+    this.settle({ problem: { ...problem, start: problem.goal, goal: problem.start } });
   }
 
   rest(): void {
-    if (this.store.current.live) this.store.update({ live: false });
+    if (this.store.current.live) this.settle({});
   }
 
   setRobotKind(kind: RobotKind): void {
     const { problem, runs } = this.store.current;
     if (!problem || problem.robot.kind === kind) return;
     const robot = { kind, ...DEFAULT_SIZES[kind] };
-    this.store.update({
+    this.settle({
       problem: { ...problem, robot },
       runs: this.runsFor(kind, runs, problem.robot.kind),
     });
@@ -174,14 +228,14 @@ export class App {
   }
 
   setLimits(change: Partial<Limits>): void {
-    this.store.update({ limits: { ...this.store.current.limits, ...change } });
+    this.settle({ limits: { ...this.store.current.limits, ...change } });
   }
 
   setRun(index: number, change: Partial<Run>): void {
     const runs = this.store.current.runs.map((run, i) =>
       i === index ? { ...run, ...change } : run,
     );
-    this.store.update({ runs });
+    this.settle({ runs });
   }
 
   private get mostRuns(): number {
@@ -205,17 +259,17 @@ export class App {
     ];
     const isNew = (wish: Run) =>
       !runs.some((run) => run.planner === wish.planner && run.guide === wish.guide);
-    this.store.update({ runs: [...runs, wishes.find(isNew) ?? wishes[0]!] });
+    this.settle({ runs: [...runs, wishes.find(isNew) ?? wishes[0]!] });
   }
 
   removeRun(index: number): void {
     const { runs } = this.store.current;
     this.planning.traces.splice(index, 1);
-    this.store.update({ runs: runs.filter((_, i) => i !== index) });
+    this.settle({ runs: runs.filter((_, i) => i !== index) });
   }
 
   planAgain(): void {
-    this.store.update({ limits: { ...this.store.current.limits } });
+    this.settle({ limits: { ...this.store.current.limits } });
   }
 
   /** Whether a point lies on the map. */
@@ -249,13 +303,17 @@ export class App {
   }
 
   private async replaceMap(get: () => Promise<LoadedMap>): Promise<void> {
-    this.wanted = get;
-    const loaded = await this.attempt(get);
-    if (!loaded || this.wanted !== get) return; // another map was asked for meanwhile
-    this.former = [];
+    const loaded = await this.attempt(get, this.want());
+    if (!loaded) return;
     const { problem } = this.store.current;
     const robot = problem?.robot ?? { kind: "point", ...DEFAULT_SIZES.point };
-    this.show(loaded, { robot, ...this.ends(loaded, robot) });
+    this.replace(loaded, { robot, ...this.ends(loaded, robot) });
+  }
+
+  /** Asks for a map; tells whether no other was asked for since. */
+  private want(): () => boolean {
+    const number = ++this.asked;
+    return () => number === this.asked;
   }
 
   private ends({ info, raster }: LoadedMap, robot: RobotModel): Record<End, Pose> {
@@ -267,6 +325,18 @@ export class App {
     return { start: exactPose({ ...start, yaw }), goal: exactPose({ ...goal, yaw }) };
   }
 
+  /** Shows another map; what was drawn on the former, or was to be, goes with it. */
+  private replace(
+    loaded: LoadedMap,
+    problem: Pick<Problem, "robot" | "start" | "goal">,
+    change: Partial<State> = {},
+  ): void {
+    this.generation++;
+    this.former = [];
+    this.strokes = [];
+    this.show(loaded, problem, change);
+  }
+
   private show(
     loaded: LoadedMap,
     { robot, start, goal }: Pick<Problem, "robot" | "start" | "goal">,
@@ -275,17 +345,28 @@ export class App {
     const { info: map, source, raster } = loaded;
     this.loaded = loaded;
     this.raster = raster;
-    this.store.update({ problem: { map, source, robot, start, goal }, live: false, ...change });
+    this.settle({ problem: { map, source, robot, start, goal }, ...change });
   }
 
-  private async attempt<T>(action: () => Promise<T>, keepError = false): Promise<T | null> {
+  /** Changes something other than by dragging: there is time for a whole plan. */
+  private settle(change: Partial<State>): void {
+    this.store.update({ ...change, live: false });
+  }
+
+  /** What an action brings; null if it is refused, which is told, or not wanted any more. */
+  private async attempt<T>(
+    action: () => Promise<T>,
+    isWanted: () => boolean,
+    keepError = false,
+  ): Promise<T | null> {
     try {
       const value = await action();
+      if (!isWanted()) return null;
       if (!keepError) this.mapError = null;
       return value;
     } catch (error) {
       if (!(error instanceof ApiError)) throw error;
-      this.mapError = error;
+      if (isWanted()) this.mapError = error;
       this.changed();
       return null;
     }

@@ -1,6 +1,6 @@
 /** Plans what the page shows: at leisure with progress, or again and again while one drags. */
 
-import { ApiError, type Client } from "../api/client";
+import { ApiError, type Client, pause } from "../api/client";
 import type { Path } from "../geometry/path";
 import { type Limits, type Problem, planRequest, type Run } from "../model/problem";
 import { Trace } from "./trace";
@@ -13,14 +13,10 @@ export interface Job {
 
 /** Seconds that all runs together may search while one drags. */
 const LIVE_SECONDS = 0.02;
-/** Milliseconds until a busy server is asked again, and how often. */
-const RETRY_AFTER = 300;
-const TRIES = 10;
 
 export class Planning {
   traces: Trace[] = [];
-  /** Why there is no plan, if the server refused it. */
-  error: ApiError | null = null;
+  private refusal: { job: Job; error: ApiError } | null = null;
   private best: { problem: Problem | null; length: number; path: Path } = none(null);
   private controller = new AbortController();
   private pending: Job | null = null;
@@ -30,7 +26,13 @@ export class Planning {
   constructor(
     private readonly client: Client,
     private readonly changed: () => void,
+    private readonly refused: () => void,
   ) {}
+
+  /** Why a run has no plan, until one of a later job has. */
+  get error(): ApiError | null {
+    return this.refusal?.error ?? null;
+  }
 
   /** The shortest path that any run has found for the present problem. */
   get bestPath(): Path {
@@ -40,11 +42,12 @@ export class Planning {
   /** Plans with progress, the runs one after the other so that their times compare. */
   async plan(job: Job): Promise<void> {
     this.pending = null;
-    const signal = this.begin(job);
-    for (const trace of this.traces) trace.phase = "waiting";
+    const signal = this.begin();
+    const traces = this.match(job);
+    for (const trace of traces) trace.phase = "waiting";
     for (const [index, run] of job.runs.entries()) {
-      const attempt = () => this.stream(job, run, this.traces[index]!, signal);
-      if (!(await this.succeeds(attempt, signal))) return;
+      await this.stream(job, run, traces[index]!, signal);
+      if (signal.aborted) return;
     }
   }
 
@@ -52,21 +55,26 @@ export class Planning {
   async follow(job: Job): Promise<void> {
     this.pending = job;
     if (this.following && !this.following.aborted) return;
-    const signal = this.begin(job);
+    const signal = this.begin();
     this.following = signal;
     while (this.pending && !signal.aborted) {
       const wish: Job = this.pending;
       this.pending = null;
-      await this.succeeds(() => this.glance(wish, signal), signal);
+      await this.glance(wish, signal);
     }
     if (this.following === signal) this.following = null;
   }
 
-  private begin({ runs }: Job): AbortSignal {
+  private begin(): AbortSignal {
     this.controller.abort();
     this.controller = new AbortController();
-    this.traces = runs.map((_, index) => this.traces[index] ?? new Trace());
     return this.controller.signal;
+  }
+
+  /** A trace for each run: that which it had, or a new one. */
+  private match({ runs }: Job): Trace[] {
+    this.traces = runs.map((_, index) => this.traces[index] ?? new Trace());
+    return this.traces;
   }
 
   private async stream(job: Job, run: Run, trace: Trace, signal: AbortSignal): Promise<void> {
@@ -74,59 +82,69 @@ export class Planning {
     trace.phase = "planning";
     this.changed();
     let first = true;
-    for await (const event of this.client.planStream(request, signal)) {
-      if (signal.aborted) return;
-      if (first) trace.clear(); // not earlier: what was there stays until there is something new
-      first = false;
-      trace.take(event);
-      this.took(job, trace);
+    try {
+      for await (const event of this.client.planStream(request, signal)) {
+        if (signal.aborted) return;
+        if (first) trace.clear(); // not earlier: what was there stays until there is something new
+        first = false;
+        trace.take(event);
+        this.took(job, trace);
+      }
+    } catch (error) {
+      if (!signal.aborted) this.fail(job, trace, error);
     }
   }
 
   private async glance(job: Job, signal: AbortSignal): Promise<void> {
     const limits = { ...job.limits, time: LIVE_SECONDS / job.runs.length };
+    const traces = this.match(job);
     for (const [index, run] of job.runs.entries()) {
-      const response = await this.client.plan(planRequest(job.problem, run, limits), signal);
-      const trace = this.traces[index]!;
-      trace.replace(response);
-      this.took(job, trace);
-    }
-  }
-
-  private took({ problem }: Job, { length, path }: Trace): void {
-    this.error = null;
-    if (problem !== this.best.problem) this.best = none(problem);
-    if (length !== null && length < this.best.length) this.best = { problem, length, path };
-    this.changed();
-  }
-
-  /** Tries again while the server is busy, and keeps the error if it refuses. */
-  private async succeeds(attempt: () => Promise<void>, signal: AbortSignal): Promise<boolean> {
-    for (let tries = 1; ; tries++) {
+      const trace = traces[index]!;
       try {
-        await attempt();
-        return !signal.aborted;
+        const response = await this.client.plan(planRequest(job.problem, run, limits), signal);
+        if (signal.aborted) return;
+        trace.replace(response);
+        this.took(job, trace);
       } catch (error) {
-        if (signal.aborted) return false;
-        if (!(error instanceof ApiError)) throw error;
-        if (error.status !== 429 || tries === TRIES) {
-          this.fail(error);
-          return false;
-        }
-        await new Promise((resolve) => setTimeout(resolve, RETRY_AFTER));
+        if (signal.aborted) return;
+        if (isBusy(error)) return this.wait(job, error.retryAfter);
+        this.fail(job, trace, error);
       }
     }
   }
 
-  private fail(error: ApiError): void {
-    this.error = error;
-    this.best = none(null);
-    for (const trace of this.traces) {
-      trace.clear();
-      trace.phase = "failed";
-    }
+  /** Leaves a busy server alone; then it is asked for the latest wish, which may still be this. */
+  private wait(job: Job, seconds: number): Promise<void> {
+    this.pending ??= job;
+    return pause(seconds);
+  }
+
+  private took(job: Job, { length, path }: Trace): void {
+    if (this.refusal?.job !== job) this.refusal = null;
+    this.turnTo(job.problem);
+    if (length !== null && length < this.best.length) this.best = { ...this.best, length, path };
     this.changed();
   }
+
+  /** Keeps the error of one run, and what the others have found. */
+  private fail(job: Job, trace: Trace, error: unknown): void {
+    if (!(error instanceof ApiError)) throw error;
+    trace.clear();
+    trace.phase = "failed";
+    this.turnTo(job.problem);
+    this.refusal = { job, error };
+    this.refused();
+    this.changed();
+  }
+
+  /** Forgets the best path of another problem. */
+  private turnTo(problem: Problem): void {
+    if (problem !== this.best.problem) this.best = none(problem);
+  }
+}
+
+function isBusy(error: unknown): error is ApiError & { retryAfter: number } {
+  return error instanceof ApiError && error.retryAfter !== null;
 }
 
 function none(problem: Problem | null) {

@@ -30,6 +30,7 @@ export class TreeLayer {
   clear(): void {
     this.lines = new TreeLines();
     this.view = null;
+    this.stale = false;
   }
 
   add(tree: TreeResponse): void {
@@ -39,7 +40,7 @@ export class TreeLayer {
 
   /** Whether the image lags behind and wants to be drawn again when there is time. */
   get lags(): boolean {
-    return this.stale;
+    return this.stale && this.lines.vertices > 0;
   }
 
   /** Draws on a context in device pixels. While the view `moves`, a former image is good enough. */

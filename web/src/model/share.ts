@@ -21,6 +21,7 @@ export interface Shared {
 const KINDS: readonly string[] = ["forest", "maze", "indoor"] satisfies MapKind[];
 const ROBOTS: readonly string[] = ["point", "dubins", "reeds-shepp"] satisfies RobotKind[];
 const UNGUIDED = "none";
+const MOST_SEED = 2 ** 32 - 1;
 
 export function encode({ source, id, robot, start, goal, runs, limits }: Shared): string {
   const fields: [string, string][] = [];
@@ -43,8 +44,8 @@ export function encode({ source, id, robot, start, goal, runs, limits }: Shared)
   return `#${fields.map(([key, value]) => `${key}=${value}`).join("&")}`;
 }
 
-/** Null where the fragment holds no problem, or a damaged one. */
-export function decode(fragment: string): Shared | null {
+/** Null where the fragment holds no problem, or a damaged one; `longest` bounds its time limit. */
+export function decode(fragment: string, longest: number): Shared | null {
   const fields = new URLSearchParams(fragment.replace(/^#/, ""));
   try {
     return {
@@ -55,8 +56,8 @@ export function decode(fragment: string): Shared | null {
       goal: poseOf(fields.get("goal") ?? ""),
       runs: fields.getAll("run").map(runOf),
       limits: {
-        time: number(fields.get("time") ?? ""),
-        seed: fields.has("seed") ? whole(fields.get("seed")!) : null,
+        time: Math.min(positive(fields.get("time") ?? ""), longest),
+        seed: fields.has("seed") ? whole(fields.get("seed")!, MOST_SEED) : null,
       },
     };
   } catch (error) {
@@ -85,9 +86,18 @@ function number(text: string): number {
   return text.trim() !== "" && Number.isFinite(value) ? value : fail(text);
 }
 
-function whole(text: string): number {
+function within(text: string, least: number, most: number): number {
   const value = number(text);
-  return Number.isSafeInteger(value) && value >= 0 ? value : fail(text);
+  return value >= least && value <= most ? value : fail(text);
+}
+
+function positive(text: string): number {
+  return within(text, Number.MIN_VALUE, Number.MAX_VALUE);
+}
+
+function whole(text: string, most: number): number {
+  const value = within(text, 0, most);
+  return Number.isInteger(value) ? value : fail(text);
 }
 
 function poseText({ x, y, yaw }: Pose): string {
@@ -123,7 +133,7 @@ function sourceOf(fields: URLSearchParams): MapSource {
     kind: "generated",
     request: {
       kind: kind as MapKind,
-      seed: whole(seed!),
+      seed: whole(seed!, Number.MAX_SAFE_INTEGER),
       width: number(width!),
       height: number(height!),
       resolution: number(resolution),
@@ -135,7 +145,11 @@ function sourceOf(fields: URLSearchParams): MapSource {
 function robotOf(text: string): RobotModel {
   const [kind, radius, turningRadius] = text.split(",");
   if (turningRadius === undefined || !ROBOTS.includes(kind!)) fail("robot");
-  return { kind: kind as RobotKind, radius: number(radius!), turningRadius: number(turningRadius) };
+  return {
+    kind: kind as RobotKind,
+    radius: within(radius!, 0, Number.MAX_VALUE),
+    turningRadius: positive(turningRadius),
+  };
 }
 
 function runOf(text: string): Run {
@@ -144,6 +158,6 @@ function runOf(text: string): Run {
   return {
     planner: planner!,
     guide: guide === UNGUIDED ? null : guide!,
-    exploration: number(exploration),
+    exploration: within(exploration, 0, 1),
   };
 }

@@ -9,13 +9,14 @@ const BLOCKED: Record<string, End> = { StartOccupied: "start", GoalOccupied: "go
 export class Alert {
   private readonly box = byId("alert");
   private readonly fix = byId("alert-fix");
-  /** The error that the visitor has read. */
+  /** The error with a plan that the visitor has read. */
   private closed: ApiError | null = null;
 
   constructor(private readonly app: App) {
     this.fix.addEventListener("click", () => this.moveToFree());
     byId("alert-close").addEventListener("click", () => {
-      this.closed = this.error;
+      if (app.mapError) app.mapError = null;
+      else this.closed = app.planning.error;
       this.update();
     });
   }

@@ -67,7 +67,9 @@ export class Controls {
 
   /** Asks the server which maps it has. */
   async refreshMaps(): Promise<void> {
-    this.known = await this.app.client.maps();
+    const maps = await this.app.storedMaps();
+    if (!maps) return;
+    this.known = maps;
     byId("maps-field").hidden = this.known.length === 0;
     const choices = this.known.map(
       ({ id, name, columns, rows }) => [id, `${name}, ${columns} × ${rows}`] as const,
@@ -103,9 +105,10 @@ export class Controls {
       });
     }
     byId("upload").addEventListener("click", () => this.files.click());
-    this.files.addEventListener("change", async () => {
-      await this.upload([...(this.files.files ?? [])]);
-      this.files.value = "";
+    this.files.addEventListener("change", () => {
+      const files = [...(this.files.files ?? [])];
+      this.files.value = ""; // so that the same file can be chosen again
+      void this.upload(files);
     });
     this.maps.addEventListener("change", () => {
       const chosen = this.known.find(({ id }) => id === this.maps.value);

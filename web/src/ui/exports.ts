@@ -54,7 +54,7 @@ export class Exports {
     const { problem, runs, limits } = this.app.store.current;
     if (!problem) return;
     // The seed that was drawn belongs to the plan that is shown.
-    const seed = limits.seed ?? this.app.planning.traces[0]?.response?.seed ?? null;
+    const seed = limits.seed ?? this.app.result(0)?.seed ?? null;
     byId("code").textContent = snippet({
       problem,
       run: runs[0]!,
@@ -66,25 +66,19 @@ export class Exports {
 
   private savePaths(suffix: "csv" | "json", type: string): void {
     const { problem, runs, limits } = this.app.store.current;
-    const found = this.finished().filter(({ trace }) => trace.response!.solved);
+    const found = runs.flatMap((run, index) => {
+      const response = this.app.result(index);
+      return response?.solved ? [{ run, index, response }] : [];
+    });
     if (!problem || found.length === 0) {
       toast("There is no path yet.");
       return;
     }
-    for (const { trace, run, index } of found) {
-      const response = trace.response!;
+    for (const { run, index, response } of found) {
       const text = suffix === "csv" ? pathCsv(response) : pathJson(problem, run, limits, response);
       const number = runs.length > 1 ? `-${index + 1}-${run.planner}` : "";
       save(`path${number}.${suffix}`, new Blob([text], { type }));
     }
-  }
-
-  private finished(): { trace: Trace; run: Run; index: number }[] {
-    const { runs } = this.app.store.current;
-    return runs.flatMap((run, index) => {
-      const trace = this.app.planning.traces[index];
-      return trace?.response ? [{ trace, run, index }] : [];
-    });
   }
 
   /** All panels as they are, each under a line that says what it shows. */

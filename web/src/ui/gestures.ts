@@ -47,9 +47,10 @@ export function listenToGestures(element: HTMLElement, target: GestureTarget): v
     const from = fingers.get(event.pointerId);
     if (!from) return;
     const at = position(event);
+    const before = [...fingers.values()];
+    fingers.set(event.pointerId, at);
     if (fingers.size === 2) {
-      const [first, second] = [...fingers.values()] as [Point, Point];
-      fingers.set(event.pointerId, at);
+      const [first, second] = before as [Point, Point];
       const [newFirst, newSecond] = [...fingers.values()] as [Point, Point];
       target.pinch(
         middle(first, second),
@@ -58,7 +59,6 @@ export function listenToGestures(element: HTMLElement, target: GestureTarget): v
       );
     } else if (begun) {
       moved ||= span(begun, at) > SLACK;
-      fingers.set(event.pointerId, at);
       if (moved) target.dragMove(at, from);
     }
   });

@@ -95,8 +95,9 @@ export class Handles {
       grip = null;
       this.app.rest();
     };
-    button.addEventListener("pointerup", end);
-    button.addEventListener("pointercancel", end);
+    for (const name of ["pointerup", "pointercancel", "lostpointercapture"] as const) {
+      button.addEventListener(name, end);
+    }
   }
 
   private moveTo(end: End, at: Point, grip: Point): void {

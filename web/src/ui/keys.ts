@@ -35,7 +35,7 @@ export function listenToKeys({ app, stage, toolbar, exports }: Parts): void {
     if (document.querySelector("dialog[open]") || event.altKey || isTyping(event)) return;
     const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
     if (event.ctrlKey || event.metaKey) {
-      if (key !== "z") return;
+      if (key !== "z" || event.shiftKey) return; // with Shift it redoes, elsewhere
       app.undo();
     } else if (TOOLS[key]) {
       toolbar.choose(TOOLS[key]);

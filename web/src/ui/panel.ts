@@ -135,6 +135,7 @@ export class Panel {
     if (region !== this.decoding) {
       this.decoding = region;
       void decodeMask(region.mask).then((mask) => {
+        if (region !== this.decoding) return; // a newer one has overtaken it
         this.decoded = mask;
         this.changed();
       });

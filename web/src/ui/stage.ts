@@ -45,6 +45,8 @@ export class Stage {
   private moves = false;
   private resting = 0;
   private stroke: Stroke | null = null;
+  /** The generation of the map under the stroke. */
+  private strokeOn = 0;
   private driveBegan: number | null = null;
   private walls: { key: string; image: Placed } | null = null;
 
@@ -130,7 +132,8 @@ export class Stage {
         drivers[index] ?? null,
       );
     });
-    if (this.driveBegan !== null || traces.some((trace) => trace.tree.lags)) this.invalidate();
+    const lags = this.layers.tree && traces.some(({ tree }) => tree.lags);
+    if (this.driveBegan !== null || lags) this.invalidate();
   }
 
   private matchPanels(count: number): void {
@@ -173,6 +176,7 @@ export class Stage {
     if (this.tool !== "wall" && this.tool !== "erase") return;
     const { x, y } = this.world(at);
     this.stroke = { points: [[x, y]], radius: this.brush, occupied: this.tool === "wall" };
+    this.strokeOn = this.app.generation;
     this.invalidate();
   }
 
@@ -190,7 +194,7 @@ export class Stage {
   private endStroke(cancelled: boolean): void {
     const { stroke } = this;
     this.stroke = null;
-    if (stroke && !cancelled) this.app.draw(stroke);
+    if (stroke && !cancelled && this.strokeOn === this.app.generation) this.app.draw(stroke);
     this.invalidate();
   }
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from types import MappingProxyType
+from typing import Any
 
 from matplotlib.figure import Figure
 
@@ -70,6 +71,8 @@ FIGURES: Mapping[str, Recipe] = MappingProxyType(
 def write_plan_figures(folder: Path, names: Sequence[str] | None = None) -> list[Path]:
     """Plan what the figures show, draw them as PNG, and note the plans in figures.json.
 
+    What is noted there of other figures stays.
+
     Args:
         folder: Where the files go; made where it does not exist.
         names: Some of `FIGURES`; None for all.
@@ -97,10 +100,22 @@ def write_plan_figures(folder: Path, names: Sequence[str] | None = None) -> list
             for known in (known_problem(*problem, _SEED) for problem in recipe.problems)
             for system in recipe.systems
         ]
-        plans[name] = [each.record() for each in drawn]
+        plans[name] = {
+            "environment": environment(),
+            "seed": _SEED,
+            "plans": [each.record() for each in drawn],
+        }
         files.append(folder / f"{name}.png")
         save_picture(recipe.draw(drawn), files[-1])
-    record = {"environment": environment(), "seed": _SEED, "figures": plans}
     files.append(folder / RECORD)
-    write_text(files[-1], json.dumps(record, indent=2) + "\n")
+    write_text(files[-1], json.dumps(_noted(files[-1]) | plans, indent=2) + "\n")
     return files
+
+
+def _noted(record: Path) -> dict[str, Any]:
+    """What a figures.json says so far, of the figures that there are."""
+    try:
+        noted = dict(json.loads(record.read_text(encoding="utf-8")))
+    except (OSError, ValueError, TypeError):
+        return {}
+    return {name: noted[name] for name in FIGURES if name in noted}

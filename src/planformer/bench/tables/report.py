@@ -26,6 +26,8 @@ COLUMNS = {
     "vertices, 90 %": ("vertices_p90", ",.0f"),
     "length": ("length_ratio", ".3f"),
     "proposal s": ("proposal_seconds", ".4f"),
+    "RRT*'s time over it": ("seconds_gain", ".3g"),
+    "RRT*'s vertices over it": ("vertices_gain", ".3g"),
 }
 """Columns of the table: the measure and its format."""
 SHORT = ("accuracy %", "time s", "vertices", "length")
@@ -104,6 +106,12 @@ PAPER: Mapping[str, Mapping[str, tuple[float, float, int]]] = {
 }
 """Accuracy in percent, median time in seconds and median vertices in the paper's tables I to IV."""
 
+_PAPERS_OWN = " (S.E.)"
+"""The network of the paper's MPT; its numbers stand beside ours of the default network too."""
+_REPLACED = (
+    "{} of these problems stand in for others, on maps without room or for which the search for a "
+    "reference found no path."
+)
 _PAPER_COLUMNS = ("paper: accuracy %", "paper: time s", "paper: vertices")
 
 
@@ -148,7 +156,7 @@ def table_cells(
 ) -> list[str]:
     """The cells of a line: the system and some of `COLUMNS`."""
     values = (
-        interval_cell(line[measure], style, with_ends=intervals)
+        interval_cell(line[measure], style, with_ends=intervals) if line[measure] else ""
         for measure, style in columns.values()
     )
     return [line["system"], *values]
@@ -168,6 +176,8 @@ def _tables(
         )
         heading = f"### {row}, {problems:,} problems"
         paragraphs += [heading, "", markdown_table(header, cells), ""]
+        if intervals and (replaced := max(line["replaced"] for line in of_row)):
+            paragraphs += [_REPLACED.format(replaced), ""]
     return paragraphs
 
 
@@ -175,7 +185,8 @@ def _paper(line: Mapping[str, Any]) -> list[str]:
     """The paper's numbers beside a system: empty cells where it has none, none on other rows."""
     if line["row"] not in PAPER:
         return []
-    if line["system"] not in PAPER[line["row"]]:
+    system = line["system"].removesuffix(_PAPERS_OWN)
+    if system not in PAPER[line["row"]]:
         return [""] * len(_PAPER_COLUMNS)
-    accuracy, seconds, vertices = PAPER[line["row"]][line["system"]]
+    accuracy, seconds, vertices = PAPER[line["row"]][system]
     return [f"{accuracy:g}", f"{seconds:g}", f"{vertices:,}"]

@@ -21,6 +21,7 @@ from planformer.planning import (
     REFINEMENT,
     REFINEMENT_IN_REGION,
     PlanResult,
+    PlanStatus,
     Problem,
     SearchLimits,
     path_is_valid,
@@ -84,9 +85,10 @@ class GuidedPlanner:
 
     def solve(self, problem: Problem, limits: SearchLimits, seed: int) -> Solution:
         """Propose a region if there is a guide, and search."""
+        proposer = None if self.guide is None else self._proposer()  # loads the weights once
         started = time.perf_counter()
-        region = None if self.guide is None else self._proposer().propose(problem).sampling()
-        seconds = 0.0 if self.guide is None else time.perf_counter() - started
+        region = None if proposer is None else proposer.propose(problem).sampling()
+        seconds = 0.0 if proposer is None else time.perf_counter() - started
         result = search(
             problem,
             self.planner,
@@ -134,19 +136,25 @@ class GridSearch:
     find: Solve
 
     def solve(self, problem: Problem, limits: SearchLimits, seed: int) -> Solution:
-        """Search, and check the path as planners' paths are checked; no limit applies."""
-        del limits
+        """Search to the end, and check the path as planners' paths are checked.
+
+        What takes longer than the limit counts as no path.
+        """
         started = time.perf_counter()
         path = self.find(problem, seed)
+        status = "finished"
         if path is not None and not path_is_valid(problem.grid, problem.robot, path):
-            return Solution(None, np.inf, 0, 0.0, time.perf_counter() - started, "invalid path")
+            path, status = None, "invalid path"
+        seconds = time.perf_counter() - started
+        if limits.seconds is not None and seconds > limits.seconds:
+            path, status = None, PlanStatus.TIME_LIMIT.value
         return Solution(
             path=path,
             length=np.inf if path is None else polyline_length(path),
             vertices=0,
             proposal_seconds=0.0,
-            planning_seconds=time.perf_counter() - started,
-            status="finished",
+            planning_seconds=seconds,
+            status=status,
         )
 
 
