@@ -8,13 +8,17 @@
 #include <ompl/geometric/planners/informedtrees/aitstar/Vertex.h>
 #include <ompl/geometric/planners/informedtrees/bitstar/ImplicitGraph.h>
 #include <ompl/geometric/planners/informedtrees/bitstar/Vertex.h>
+#include <ompl/geometric/planners/prm/PRM.h>
 #include <ompl/geometric/planners/rrt/RRT.h>
 #include <ompl/geometric/planners/rrt/RRTXstatic.h>
 #include <ompl/geometric/planners/rrt/RRTstar.h>
 
+#include <boost/graph/adjacency_list.hpp>
+#include <boost/range/iterator_range.hpp>
 #include <mutex>
 #include <unordered_map>
 
+#include "core/exposed.hpp"
 #include "core/region.hpp"
 
 namespace planformer {
@@ -22,32 +26,41 @@ namespace planformer {
 namespace ob = ompl::base;
 namespace og = ompl::geometric;
 
-namespace {
-
-// getPlannerData of BIT*, ABIT*, AIT* and EIT* keeps every vertex that it has ever reported in a
-// set that lives as long as the process (OMPL 1.5 to 1.7): memory grows with each plan and threads
-// race for the set. So the graphs of the first three are read from their members. These are
-// not public; only an explicit instantiation may name them ([temp.explicit] in the C++ standard).
-
-template <typename Tag, auto Member>
-struct Expose {
-    friend constexpr auto graph_member(Tag) { return Member; }
-};
-
 struct BitTag {
-    friend constexpr auto graph_member(BitTag);
+    friend constexpr auto exposed(BitTag);
 };
 template struct Expose<BitTag, &og::BITstar::graphPtr_>;
 
 struct AitTag {
-    friend constexpr auto graph_member(AitTag);
+    friend constexpr auto exposed(AitTag);
 };
 template struct Expose<AitTag, &og::AITstar::graph_>;
+
+struct RrtTag {
+    friend constexpr auto exposed(RrtTag);
+};
+template struct Expose<RrtTag, &og::RRT::nn_>;
+
+struct RrtStarTag {
+    friend constexpr auto exposed(RrtStarTag);
+};
+template struct Expose<RrtStarTag, &og::RRTstar::nn_>;
+
+struct RrtXTag {
+    friend constexpr auto exposed(RrtXTag);
+};
+template struct Expose<RrtXTag, &og::RRTXstatic::nn_>;
+
+namespace {
+
+// getPlannerData of BIT*, ABIT*, AIT* and EIT* keeps every vertex that it has ever reported in a
+// set that lives as long as the process (OMPL 1.5 to 1.7): memory grows with each plan and threads
+// race for the set. So the graphs of the first three are read from their members.
 
 /// What BIT* and AIT* call the same things.
 struct BitGraph {
     static auto vertices(const og::BITstar& planner) {
-        return (planner.*graph_member(BitTag{}))->getCopyOfSamples();
+        return (planner.*exposed(BitTag{}))->getCopyOfSamples();
     }
     template <typename Vertex>
     static const ob::State* state(const Vertex& vertex) {
@@ -61,7 +74,7 @@ struct BitGraph {
 
 struct AitGraph {
     static auto vertices(const og::AITstar& planner) {
-        return (planner.*graph_member(AitTag{})).getVertices();
+        return (planner.*exposed(AitTag{})).getVertices();
     }
     template <typename Vertex>
     static const ob::State* state(const Vertex& vertex) {
@@ -93,21 +106,6 @@ Tree read_vertices(const Planner& planner) {
 // OMPL's planner data takes milliseconds for a thousand vertices, which is too long for snapshots
 // of a search. The trees of planners that go on until a limit are therefore read directly as well.
 
-struct RrtTag {
-    friend constexpr auto graph_member(RrtTag);
-};
-template struct Expose<RrtTag, &og::RRT::nn_>;
-
-struct RrtStarTag {
-    friend constexpr auto graph_member(RrtStarTag);
-};
-template struct Expose<RrtStarTag, &og::RRTstar::nn_>;
-
-struct RrtXTag {
-    friend constexpr auto graph_member(RrtXTag);
-};
-template struct Expose<RrtXTag, &og::RRTXstatic::nn_>;
-
 template <typename Motions>
 Tree read_motions(const Motions& motions, const ob::StateSpace& space) {
     std::unordered_map<const void*, std::uint32_t> index(2 * motions.size());
@@ -136,15 +134,30 @@ std::vector<Motion> motions_of(const ompl::NearestNeighbors<Motion>& neighbours)
 template <typename Use>
 bool use_motions(const ob::Planner& planner, Use&& use) {
     if (const auto* star = dynamic_cast<const og::RRTstar*>(&planner)) {
-        use(*(star->*graph_member(RrtStarTag{})));  // Informed RRT* and SORRT* too
+        use(*(star->*exposed(RrtStarTag{})));  // Informed RRT* and SORRT* too
     } else if (const auto* x = dynamic_cast<const og::RRTXstatic*>(&planner)) {
-        use(*(x->*graph_member(RrtXTag{})));  // RRT# too
+        use(*(x->*exposed(RrtXTag{})));  // RRT# too
     } else if (const auto* rrt = dynamic_cast<const og::RRT*>(&planner)) {
-        use(*(rrt->*graph_member(RrtTag{})));
+        use(*(rrt->*exposed(RrtTag{})));
     } else {
         return false;
     }
     return true;
+}
+
+/// The whole roadmap, of which OMPL's planner data leaves out milestones without an edge.
+Tree read_roadmap(const og::PRM& planner) {
+    const og::PRM::Graph& graph = planner.getRoadmap();
+    const ob::StateSpace& space = *planner.getSpaceInformation()->getStateSpace();
+    Tree tree;
+    for (const auto vertex : boost::make_iterator_range(boost::vertices(graph))) {
+        const ob::State* state = boost::get(og::PRM::vertex_state_t(), graph, vertex);
+        tree.vertices.push_back(read_state(space, state));
+    }
+    for (const auto edge : boost::make_iterator_range(boost::edges(graph))) {
+        tree.edges.emplace_back(boost::source(edge, graph), boost::target(edge, graph));
+    }
+    return tree;
 }
 
 /// `getPlannerData` for all planners but those above; one at a time because of EIT*.
@@ -190,6 +203,7 @@ std::size_t count_vertices(const ob::Planner& planner) {
     if (const auto* ait = dynamic_cast<const og::AITstar*>(&planner)) {
         return AitGraph::vertices(*ait).size();
     }
+    if (const auto* prm = dynamic_cast<const og::PRM*>(&planner)) return prm->milestoneCount();
     std::size_t motions = 0;
     if (use_motions(planner, [&](const auto& neighbours) { motions = neighbours.size(); })) {
         return motions;
@@ -208,6 +222,7 @@ Tree read_tree(const ob::Planner& planner) {
     if (const auto* ait = dynamic_cast<const og::AITstar*>(&planner)) {
         return read_vertices<AitGraph>(*ait);
     }
+    if (const auto* prm = dynamic_cast<const og::PRM*>(&planner)) return read_roadmap(*prm);
     Tree tree;
     const bool is_read = use_motions(planner, [&](const auto& neighbours) {
         tree =

@@ -8,6 +8,7 @@
 #include <limits>
 #include <memory>
 #include <queue>
+#include <stdexcept>
 #include <utility>
 
 #include "core/dubins.hpp"
@@ -20,6 +21,7 @@ namespace {
 
 constexpr double kCellSide = 0.25;  ///< of a search cell, in turning radii
 constexpr double kStep = 0.4;       ///< driven between two poses, in turning radii; leaves the cell
+constexpr double kMostCells = 10'000;  ///< along a side; more would take gigabytes
 constexpr std::size_t kYawBins = 72;
 constexpr std::array<double, 5> kCurvatures = {-1.0, -0.5, 0.0, 0.5, 1.0};  ///< times 1 / radius
 constexpr std::size_t kFewCells = 5'000;  ///< explored from the goal before the search begins
@@ -41,8 +43,8 @@ class Cells {
 public:
     Cells(const FreeSpace& space, double side)
         : side_(side),
-          rows_(static_cast<int>(space.extent_y() / side) + 1),
-          cols_(static_cast<int>(space.extent_x() / side) + 1),
+          rows_(cells_along(space.extent_y())),
+          cols_(cells_along(space.extent_x())),
           bins_(static_cast<std::size_t>(rows_) * cols_) {}
 
     std::int32_t* best_at(const Pose& pose) {
@@ -59,6 +61,12 @@ public:
 
 private:
     using YawBins = std::array<std::int32_t, kYawBins>;
+
+    int cells_along(double extent) const {
+        const double cells = extent / side_ + 1.0;
+        if (cells <= kMostCells) return static_cast<int>(cells);
+        throw std::invalid_argument("the turning radius is too small for a map of this size");
+    }
 
     double side_;  ///< [m]
     int rows_;

@@ -1,5 +1,7 @@
 #include "core/monitor.hpp"
 
+#include <cmath>
+
 #include "core/graph.hpp"
 
 namespace planformer {
@@ -31,13 +33,14 @@ ob::PlannerTerminationCondition Monitor::condition() {
 bool Monitor::should_stop() {
     if (reason_ != Outcome::kFinished) return true;
     const double seconds = seconds_since(started_);
-    if (recorder_ != nullptr && recorder_->is_due(seconds)) recorder_->take(seconds);
     if (seconds >= limits_.seconds) {
         reason_ = Outcome::kTimeLimit;
     } else if (is_interrupted()) {
         reason_ = Outcome::kCancelled;
     } else if (has_too_many_vertices()) {
         reason_ = Outcome::kVertexLimit;
+    } else if (recorder_ != nullptr && recorder_->is_due(seconds)) {
+        recorder_->take(seconds);
     }
     return reason_ != Outcome::kFinished;
 }
@@ -58,7 +61,8 @@ bool Monitor::has_too_many_vertices() {
 }
 
 Outcome Monitor::outcome(double best_length) const {
-    if (best_length <= limits_.longest_on_target()) return Outcome::kTarget;
+    const bool has_path = std::isfinite(best_length);
+    if (has_path && best_length <= limits_.longest_on_target()) return Outcome::kTarget;
     return reason_;
 }
 

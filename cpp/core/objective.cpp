@@ -28,7 +28,8 @@ RegionInformedSampler::RegionInformedSampler(const ob::ProblemDefinitionPtr& pro
       extent_(extent),
       start_(read_state(*space_, problem->getStartState(0))),
       goal_(read_state(*space_, problem->getGoal()->as<ob::GoalState>()->getState())),
-      yaw_measure_(space_->getType() == ob::STATE_SPACE_SE2 ? 2.0 * kPi : 1.0) {
+      is_car_(space_->getType() == ob::STATE_SPACE_SE2),
+      yaw_measure_(is_car_ ? 2.0 * kPi : 1.0) {
     rng_.setLocalSeed(seed);
     ellipse_ = std::make_shared<ompl::ProlateHyperspheroid>(2, xy(start_).data(), xy(goal_).data());
 }
@@ -62,7 +63,9 @@ bool RegionInformedSampler::draw(double min_cost, double max_cost, Pose* pose) {
         }
         if (!extent_.contains(*pose)) continue;
         const double cost = heuristic(*pose);
-        if (cost >= min_cost && cost < max_cost) return true;
+        // BIT* asks for no cost below the least one of all solutions, a car's from start to goal
+        // by its curve. The straight lines of a pose that is of use may well be shorter.
+        if ((is_car_ || cost >= min_cost) && cost < max_cost) return true;
     }
     return false;
 }

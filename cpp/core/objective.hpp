@@ -39,6 +39,7 @@ private:
     Extent extent_;
     Pose start_;
     Pose goal_;
+    bool is_car_;
     double yaw_measure_;  ///< 2 pi for the car, 1 for the point
     ompl::RNG rng_;
     ompl::ProlateHyperspheroidPtr ellipse_;

@@ -4,6 +4,9 @@
 #include <ompl/base/SpaceInformation.h>
 #include <ompl/base/spaces/RealVectorStateSpace.h>
 #include <ompl/geometric/PathGeometric.h>
+#include <ompl/geometric/planners/prm/LazyPRM.h>
+#include <ompl/geometric/planners/prm/PRM.h>
+#include <ompl/geometric/planners/rrt/RRTstar.h>
 
 #include <algorithm>
 #include <limits>
@@ -75,6 +78,20 @@ std::vector<Pose> read_path(const og::PathGeometric& path, double step) {
     return joined_states(space, states, step);
 }
 
+/// Frees the graph: the destructor of OMPL's LazyPRM* leaves its states.
+void clear(ob::Planner& planner, std::uint32_t seed) {
+    // BIT* makes a generator of random numbers then, others may. Those with the largest graphs do
+    // not, and would keep other threads from making theirs for as long as it takes.
+    const bool makes_none = dynamic_cast<const og::RRTstar*>(&planner) != nullptr ||
+                            dynamic_cast<const og::PRM*>(&planner) != nullptr ||
+                            dynamic_cast<const og::LazyPRM*>(&planner) != nullptr;
+    if (makes_none) {
+        planner.clear();
+    } else {
+        seeded(seed, [&] { planner.clear(); });
+    }
+}
+
 double pose_spacing(const Query& query) { return kArcStep * query.free_space.resolution; }
 
 Answer plan_geometric(const Query& query) {
@@ -126,8 +143,7 @@ Answer run(const Query& query, Clock::time_point started, ob::Planner& planner,
     answer.seconds = seconds_since(started);
     answer.vertices = count_vertices(planner);
     if (query.keep_tree) answer.tree = read_tree(planner);
-    // The destructor of OMPL's LazyPRM* leaves its states; BIT* makes a generator when cleared.
-    seeded(query.seed, [&] { planner.clear(); });
+    clear(planner, query.seed);
     return answer;
 }
 

@@ -12,7 +12,6 @@
 #include <ompl/geometric/planners/rrt/RRTXstatic.h>
 #include <ompl/geometric/planners/rrt/RRTsharp.h>
 #include <ompl/geometric/planners/rrt/RRTstar.h>
-#include <ompl/geometric/planners/rrt/SORRTstar.h>
 
 #if __has_include(<ompl/geometric/planners/informedtrees/EITstar.h>)
 #include <ompl/geometric/planners/informedtrees/EIRMstar.h>
@@ -24,6 +23,7 @@
 
 #include "core/car_neighbors.hpp"
 #include "core/prm_star.hpp"
+#include "core/sorrt_star.hpp"
 
 namespace planformer {
 
@@ -73,7 +73,7 @@ const Entry kPlanners[] = {
     {"RRTsharp", make<og::RRTsharp>, false},
     {"RRTXstatic", make<og::RRTXstatic>, false},
     {"InformedRRTstar", make_tree<og::InformedRRTstar>, true},
-    {"SORRTstar", make_tree<og::SORRTstar>, true},
+    {"SORRTstar", make_tree<TidySORRTstar>, true},
     {"BITstar", make<og::BITstar>, true},
     {"ABITstar", make<og::ABITstar>, true},
     {"AITstar", make<og::AITstar>, false},

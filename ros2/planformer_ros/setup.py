@@ -9,7 +9,8 @@ NAME = "planformer_ros"
 
 def files(folder: str) -> tuple[str, list[str]]:
     """Where a folder's files are installed, and the files."""
-    return f"share/{NAME}/{folder}", sorted(str(file) for file in Path(folder).iterdir())
+    found = (path for path in Path(folder).iterdir() if path.is_file())  # no __pycache__
+    return f"share/{NAME}/{folder}", sorted(map(str, found))
 
 
 setup(

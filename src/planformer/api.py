@@ -65,7 +65,7 @@ def plan(
             paper's alternation of exploitation and exploration (-EE).
         refinement: Share of samples drawn near the best path so far, once there is one, which may
             leave the region; exploration is a share of the others. 0 = OMPL's planner as it is,
-            None = 0.5 with a guide, 0.2 without. AITstar and SST do not refine.
+            None = 0.5 with a guide, 0.2 without. AITstar, LazyPRMstar and SST do not refine.
         time_limit: Wall-clock limit of the search in seconds, None for none.
         target_length: Stop at the first path at most this long, in metres.
         max_vertices: Stop when the tree holds this many states.
@@ -87,6 +87,8 @@ def plan(
         InvalidParameter: Another value is out of range.
     """
     problem = Problem(grid, robot, cast(State, start), cast(State, goal))
+    if progress is not None:
+        progress.begin(problem)  # of a former search it has nothing to tell from now on
     limits = SearchLimits(time_limit, target_length, max_vertices)
     if planner == AUTO:
         planner = default_planner(robot, guided=guide is not None)

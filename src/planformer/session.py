@@ -94,13 +94,14 @@ class MapSession:
         """
         grid = self._grid
         grid.components(self._robot.radius)  # once, before the threads ask for it
-        options = {"guide": self._guide, "cancel": CancelToken(), **options}
+        options = {"guide": self._guide, **options}
+        cancel = options["cancel"] = options.get("cancel") or CancelToken()
         with ThreadPoolExecutor(workers or cores()) as pool:
             try:
                 plans = [pool.submit(plan, grid, self._robot, *ends, **options) for ends in queries]
                 done, _ = wait(plans, return_when=FIRST_EXCEPTION)
                 return [future.result() for future in plans if future in done]
             except BaseException:  # an error or Ctrl-C: nobody waits for the other plans
-                options["cancel"].cancel()
+                cancel.cancel()
                 pool.shutdown(wait=False, cancel_futures=True)
                 raise

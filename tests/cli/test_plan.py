@@ -173,3 +173,24 @@ def test_output_that_cannot_be_a_folder_is_refused_before_the_search(cli, room_f
     assert result.exit_code == 2
     assert "not a folder" in result.output
     assert "vertices" not in result.output
+
+
+def test_a_learned_planner_has_no_guide(cli, room_file, tmp_path):
+    options = ("--planner", "MPNet", "--time-limit", 60, "--no-picture", "--output", tmp_path)
+    done = cli("plan", room_file, *ENDS, *options)
+    assert done.exit_code == 0, done.output
+    assert "MPNet unguided" in done.output
+    assert json.loads((tmp_path / "path.json").read_text())["guide"] is None
+    for option in (("--guide", "mpt"), ("--threshold", 0.5), ("--exploration", 0.5)):
+        refused = cli("plan", room_file, *ENDS, *options, *option)
+        assert refused.exit_code == 2
+        assert "MPNet plans by itself" in refused.output
+
+
+def test_the_picture_of_a_ros_map_is_not_taken_for_the_map(cli, room_file, tmp_path):
+    picture = room_file.with_suffix(".pgm")
+    refused = cli("plan", picture, *ENDS, "--output", tmp_path / "plan")
+    assert refused.exit_code == 2
+    assert "room.pgm belongs to" in refused.output
+    alone = cli("plan", picture, *ENDS, "--output", tmp_path / "plan", "--resolution", 0.05)
+    assert "outside the map" in alone.output  # whose origin the picture does not know

@@ -82,3 +82,12 @@ def test_several_devices_speak_once(shell, data, tmp_path):
     assert done.returncode == 0, done.stderr
     assert json.loads(done.stdout)["step"] == 2
     assert done.stderr.count("step 2  all: ") == 1
+
+
+def test_maps_of_the_training_in_the_validation_are_told_of(cli, data, tmp_path):
+    for part in ("train", "val"):
+        (tmp_path / part).symlink_to(data / "train")
+    done = cli("train", tmp_path, tmp_path / "run", *SETTINGS, "--steps", 1)
+    assert done.exit_code == 0, done.output
+    assert "1 of the 1 maps in val/ are in train/ too" in done.output
+    assert "warning" not in cli("train", data, tmp_path / "other", *SETTINGS, "--steps", 1).output

@@ -144,3 +144,10 @@ def test_experts_are_named():
     problem = Problem(OccupancyGrid(np.zeros((40, 40), bool), 0.05), POINT, (0.5, 0.5), (1.5, 1.5))
     with pytest.raises(InvalidParameter, match="for a car"):
         hybrid_astar(problem, 10)
+
+
+def test_hybrid_astar_refuses_a_turning_radius_for_which_it_has_no_memory(walled):
+    sharp = pf.DubinsCar(radius=0.2, turning_radius=1e-6)
+    problem = problem_on(walled, sharp, (1.0, 1.0, 0.3), (3.0, 1.0, -1.0))
+    with pytest.raises(InvalidParameter, match="turning radius is too small"):
+        hybrid_astar(problem, 200_000)

@@ -67,3 +67,9 @@ def test_a_folder_without_maps_is_an_error(own_maps, tmp_path):
         (own_maps / name).unlink()
     with pytest.raises(InvalidParameter, match="holds no map"):
         read(own_maps)
+
+
+def test_near_ends_are_found_on_a_large_map_too(tmp_path):
+    np.save(tmp_path / "site.npy", np.zeros((2000, 2000), bool))
+    (site,) = read(tmp_path, resolution=0.2, min_distance=4.0, max_distance=15.0)
+    assert site.shape == (2000, 2000)

@@ -90,3 +90,10 @@ def test_all_queries_can_be_cancelled(forest):
     token.cancel()
     results = pf.MapSession(forest, ROBOT).plan_all(_queries(forest, 3), cancel=token)
     assert [result.status.value for result in results] == ["cancelled"] * 3
+
+
+def test_a_query_that_fails_ends_the_others_without_a_token_too(forest):
+    queries = [*_queries(forest, 3), ((-1.0, 0.0), (1.0, 1.0))]
+    endless = {"time_limit": 3600.0, "target_length": 0.01, "cancel": None}
+    with pytest.raises(pf.PlanformerError, match="outside the map"):
+        pf.MapSession(forest, ROBOT, guide=None).plan_all(queries, workers=4, **endless)

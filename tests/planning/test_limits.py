@@ -158,5 +158,11 @@ def test_a_limit_is_positive(limits):
 
 def test_no_limit_is_a_limit_too(open_room):
     problem = random_problem(open_room, POINT, 6)
-    for limits in (SearchLimits(seconds=None), SearchLimits(np.inf, np.inf, 2**62)):
+    for limits in (SearchLimits(seconds=None), SearchLimits(np.inf, np.inf, 2**70)):
         assert search(problem, "RRTConnect", limits=limits, seed=1).solved
+
+
+def test_without_a_path_no_target_is_reached(maze):
+    problem = random_problem(maze, POINT, 6, apart=(4.0, 12.0))
+    result = search(problem, "RRTConnect", limits=SearchLimits(None, np.inf, 3), seed=1)
+    assert (result.solved, result.status) == (False, PlanStatus.VERTEX_LIMIT)

@@ -61,3 +61,19 @@ def test_the_states_of_lazy_prm_are_freed(forest):
     before = resident_bytes()
     plan_often(800)
     assert resident_bytes() - before < 2 * MEGABYTE
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="reads /proc")
+def test_the_samples_of_sorrt_star_are_freed(open_room):
+    """OMPL's sampler forgets those that it has not used: 6 kB a plan here."""
+    problem = random_problem(open_room, POINT, 2)
+    limits = SearchLimits(60.0, max_vertices=60)
+
+    def plan_often(count):
+        for seed in range(count):
+            search(problem, "SORRTstar", limits=limits, seed=seed)
+
+    plan_often(100)
+    before = resident_bytes()
+    plan_often(800)
+    assert resident_bytes() - before < 2 * MEGABYTE

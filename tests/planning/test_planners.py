@@ -269,3 +269,33 @@ def test_a_seed_is_a_whole_number_of_32_bits(open_room, seed):
 def test_every_seed_of_32_bits_works(open_room, seed):
     problem = random_problem(open_room, POINT, 1)
     assert search(problem, "RRTConnect", limits=FIRST_PATH, seed=seed).solved
+
+
+def test_prm_star_tells_of_milestones_without_an_edge():
+    """A room that is cut off from start and goal; OMPL's planner data has nothing of it."""
+    occupied = np.zeros((60, 120), bool)
+    occupied[:, 58:62] = True
+    occupied[20:40, 25:30] = True
+    grid = pf.OccupancyGrid(occupied, 0.05)
+    problem = Problem(grid, POINT, (0.5, 1.5), (2.5, 1.5))
+    limits = SearchLimits(60.0, max_vertices=4)
+    result = search(problem, "PRMstar", limits=limits, seed=1, keep_tree=True)
+    assert len(result.tree.vertices) == result.vertices >= 4
+
+
+@pytest.mark.parametrize("planner", ["BITstar", "ABITstar"])
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_informed_batches_fill_the_way_between_a_cars_poses(planner, seed):
+    """Straight lines there are shorter than the curve from start to goal, which bounds the cost."""
+    occupied = np.zeros((60, 240), bool)
+    occupied[[0, -1]] = occupied[:, [0, -1]] = True
+    occupied[22:38, 110:130] = True
+    grid = pf.OccupancyGrid(occupied, 0.05)
+    problem = Problem(grid, DUBINS, (1.5, 1.5, np.pi / 2), (10.5, 1.5, np.pi / 2))
+    limits = SearchLimits(60.0, target_length=10.5, max_vertices=2000)
+    result = search(problem, planner, limits=limits, seed=seed, keep_tree=True)
+    assert result.solved
+    points = result.tree.vertices[:, :2]
+    to_ends = (np.linalg.norm(points - end[:2], axis=1) for end in (problem.start, problem.goal))
+    detours = sum(to_ends) - 9.0
+    assert detours[detours > 1e-6].min() < 0.1  # but for start and goal themselves

@@ -122,3 +122,13 @@ def test_plan_passes_it_on(open_room):
 def test_an_impossible_interval_is_refused(interval):
     with pytest.raises(InvalidParameter, match="interval"):
         Progress(interval=interval)
+
+
+def test_a_new_search_forgets_the_former(open_room):
+    problem = random_problem(open_room, POINT, 6)
+    progress = Progress(interval=1e-6)
+    search(problem, "RRTstar", limits=SearchLimits(60.0, max_vertices=300), progress=progress)
+    assert progress.latest() is not None
+    here = pf.planning.Problem(open_room, POINT, problem.start, problem.start)
+    search(here, "RRTstar", progress=progress)
+    assert progress.latest() is None

@@ -9,6 +9,7 @@
 
 #include "planformer_nav2/costmap_mask.hpp"
 #include "planformer_nav2/fallback.hpp"
+#include "planformer_nav2/parameters.hpp"
 
 namespace planformer_nav2 {
 
@@ -16,15 +17,6 @@ using nav2_costmap_2d::Costmap2D;
 using CostmapLock = std::lock_guard<Costmap2D::mutex_t>;
 
 namespace {
-
-constexpr double kMaxTimeout = 60.0;  // [s]
-
-template <typename T>
-T parameter(rclcpp_lifecycle::LifecycleNode& node, const std::string& name,
-            const T& default_value) {
-    if (!node.has_parameter(name)) node.declare_parameter<T>(name, default_value);
-    return node.get_parameter(name).get_value<T>();
-}
 
 void require(bool holds, const std::string& message) {
     if (!holds) throw nav2_core::PlannerException(message);
@@ -60,33 +52,24 @@ void MPTPlanner::configure(const Node::WeakPtr& parent, std::string name,
     const auto node = parent.lock();
     require(node != nullptr, name + ": the planner server is gone");
     name_ = name;
-    parent_ = parent;
     logger_ = node->get_logger();
     costmap_ros_ = costmap_ros;
-    read_parameters(*node);
+    settings_.declare(*node, name);
+    const auto text = [&](const std::string& which, const std::string& default_value) {
+        return declared(*node, name + which, default_value).get_value<std::string>();
+    };
+    client_ = std::make_unique<RegionClient>(*node, text(".service", "propose_region"));
 
-    const auto plugin = parameter<std::string>(*node, name + ".planner.plugin", "");
+    const std::string plugin = text(".planner.plugin", "");
     require(!plugin.empty(), "set " + name + ".planner.plugin to the planner that is to be guided");
     planner_ = loader_.createSharedInstance(plugin);
     planner_->configure(parent, name + ".planner", tf, costmap_ros);
+    settings_.follow(*node);
     RCLCPP_INFO(logger_, "%s guides a %s", name.c_str(), plugin.c_str());
 }
 
-void MPTPlanner::read_parameters(rclcpp_lifecycle::LifecycleNode& node) {
-    const auto service = parameter<std::string>(node, name_ + ".service", "propose_region");
-    const double timeout = parameter(node, name_ + ".proposal_timeout", 0.5);
-    guide_ = parameter<std::string>(node, name_ + ".guide", "");
-    keep_radius_ = parameter(node, name_ + ".keep_radius", 0.3);
-    fallback_ = parameter(node, name_ + ".fallback", true);
-    require(timeout > 0.0 && timeout <= kMaxTimeout,
-            name_ + ".proposal_timeout has to be above 0 s and at most 60 s");
-    require(keep_radius_ >= 0.0, name_ + ".keep_radius must not be negative");
-    client_ = std::make_unique<RegionClient>(node, service,
-                                             std::chrono::duration_cast<std::chrono::nanoseconds>(
-                                                 std::chrono::duration<double>(timeout)));
-}
-
 void MPTPlanner::cleanup() {
+    settings_.unfollow();
     planner_->cleanup();
     planner_.reset();
     client_.reset();
@@ -111,26 +94,28 @@ Path MPTPlanner::createPlan(const PoseStamped& start, const PoseStamped& goal,
 #endif
 
 Path MPTPlanner::plan(const Query& query) {
-    const auto guided = [&] { return plan_guided(query); };
+    const Settings settings = settings_.now();
+    const auto guided = [&] { return plan_guided(query, settings); };
     const auto unguided = [&] { return create_plan(*planner_, query); };
     if (!query.viapoints.empty()) return unguided();
-    return with_fallback(fallback_, guided, unguided, [this](const char* reason) {
+    return with_fallback(settings.fallback, guided, unguided, [this](const char* reason) {
         RCLCPP_WARN(logger_, "%s plans without a region: %s", name_.c_str(), reason);
     });
 }
 
-Path MPTPlanner::plan_guided(const Query& query) {
+Path MPTPlanner::plan_guided(const Query& query, const Settings& settings) {
     using nav2_core::PlannerCancelled;
     // What the node says of start and goal is no last word: the planner knows the footprint.
-    const Proposal proposal = recoverable<PlannerCancelled>([&] { return propose(query); });
+    const Proposal proposal =
+        recoverable<PlannerCancelled>([&] { return propose(query, settings); });
     // These errors are the same in the whole map, where start and goal look as they do here.
     return recoverable<PlannerCancelled, nav2_core::PlannerTFError, nav2_core::StartOccupied,
                        nav2_core::GoalOccupied, nav2_core::StartOutsideMapBounds,
                        nav2_core::GoalOutsideMapBounds>(
-        [&] { return plan_inside(proposal, query); });
+        [&] { return plan_inside(proposal, query, settings); });
 }
 
-MPTPlanner::Proposal MPTPlanner::propose(const Query& query) {
+MPTPlanner::Proposal MPTPlanner::propose(const Query& query, const Settings& settings) {
     auto request = std::make_shared<RegionClient::Service::Request>();
     Proposal proposal;
     {
@@ -147,15 +132,18 @@ MPTPlanner::Proposal MPTPlanner::propose(const Query& query) {
     request->info = describe(proposal.grid);
     request->start = query.start.pose;
     request->goal = query.goal.pose;
-    request->guide = guide_;
+    request->guide = settings.guide;
 
-    const auto answer = client_->propose(request, query.cancelled);
+    const auto timeout = std::chrono::duration_cast<std::chrono::nanoseconds>(
+        std::chrono::duration<double>(settings.proposal_timeout));
+    const auto answer = client_->propose(request, timeout, query.cancelled);
     proposal.region = std::move(answer->mask);
     proposal.seconds = answer->seconds;
     return proposal;
 }
 
-Path MPTPlanner::plan_inside(const Proposal& proposal, const Query& query) {
+Path MPTPlanner::plan_inside(const Proposal& proposal, const Query& query,
+                             const Settings& settings) {
     Costmap2D& costmap = *costmap_ros_->getCostmap();
     // Held all the while: nobody else may see, or change, the masked costmap. The planner may lock
     // it again, as the mutex is recursive.
@@ -163,22 +151,15 @@ Path MPTPlanner::plan_inside(const Proposal& proposal, const Query& query) {
     require(grid_of(costmap) == proposal.grid, "the costmap was moved or resized meanwhile");
     const CostmapMask mask(
         {costmap.getCharMap(), proposal.grid}, proposal.region,
-        {disc_round(query.start, keep_radius_), disc_round(query.goal, keep_radius_)},
-        enters_unknown() ? UnknownOutside::kClose : UnknownOutside::kKeep);
+        {disc_round(query.start, settings.keep_radius),
+         disc_round(query.goal, settings.keep_radius)},
+        settings.enters_unknown ? UnknownOutside::kClose : UnknownOutside::kKeep);
     Path path = create_plan(*planner_, query);
     // The planner server takes an empty path for a failure, and so do we.
     if (path.poses.empty()) throw nav2_core::NoValidPathCouldBeFound("an empty path");
     RCLCPP_DEBUG(logger_, "%s planned in a region that took %.3f s", name_.c_str(),
                  proposal.seconds);
     return path;
-}
-
-/// Asked for each plan, as it can be changed while the planner server runs.
-bool MPTPlanner::enters_unknown() const {
-    const std::string allow_unknown = name_ + ".planner.allow_unknown";
-    const auto node = parent_.lock();
-    if (node == nullptr || !node->has_parameter(allow_unknown)) return true;
-    return node->get_parameter(allow_unknown).get_value<bool>();
 }
 
 }  // namespace planformer_nav2

@@ -415,6 +415,45 @@ TEST_F(MPTPlannerTest, RefusesParametersOutOfRange) {
     }
 }
 
+TEST_F(MPTPlannerTest, FollowsItsParameters) {
+    serve(region());
+    plan();
+    node_->set_parameter("MPT.guide", std::string("mpt"));
+    node_->set_parameter("MPT.keep_radius", 0.5);
+    plan();
+    EXPECT_EQ(request_.guide, "mpt");
+    ASSERT_EQ(seen().size(), 2U);
+    EXPECT_EQ(seen()[1][1], 0);  // right of the start
+
+    node_->set_parameter("MPT.fallback", false);
+    node_->set_parameter("MPT.proposal_timeout", 0.02);
+    keep_requests();
+    EXPECT_THROW(plan(), nav2_core::PlannerTimedOut);
+}
+
+TEST_F(MPTPlannerTest, RefusesChangesOutOfRange) {
+    configure();
+    EXPECT_EQ(node_->set_parameter("MPT.proposal_timeout", -3.0).reason,
+              "MPT.proposal_timeout has to be above 0 s and at most 60 s");
+    for (const double value : {-0.1, kNoNumber}) {
+        EXPECT_FALSE(node_->set_parameter("MPT.keep_radius", value).successful);
+    }
+    EXPECT_TRUE(node_->set_parameter("MPT.planner.allow_unknown", false).successful);
+    planner_->cleanup();
+    EXPECT_TRUE(node_->set_parameter("MPT.keep_radius", -0.1).successful);  // not its own any more
+}
+
+// Who sets a parameter holds them all and waits for a lock that a planner server holds here.
+TEST_F(MPTPlannerTest, DoesNotAskForParametersWhileItPlans) {
+    serve(region());
+    configure();
+    const int before = node_->lookups();
+    fail_in_the_region(nav2_core::NoValidPathCouldBeFound("none"));
+    plan();
+    EXPECT_EQ(seen().size(), 2U);
+    EXPECT_EQ(node_->lookups(), before);
+}
+
 TEST_F(MPTPlannerTest, RefusesAParentThatIsGone) {
     node_.reset();
     EXPECT_THROW(configure(), nav2_core::PlannerException);

@@ -19,6 +19,7 @@ def generate_launch_description():
         DeclareLaunchArgument("params_file", default_value=defaults, description="parameters"),
         DeclareLaunchArgument("namespace", default_value="", description="namespace"),
         DeclareLaunchArgument("use_sim_time", default_value="false", description="clock of Gazebo"),
+        DeclareLaunchArgument("respawn", default_value="true", description="start it anew"),
         DeclareLaunchArgument("log_level", default_value="info", description="least to log"),
     ]
     node = LifecycleNode(
@@ -31,8 +32,9 @@ def generate_launch_description():
             {"use_sim_time": LaunchConfiguration("use_sim_time")},
         ],
         arguments=["--ros-args", "--log-level", LaunchConfiguration("log_level")],
+        remappings=[("/tf", "tf"), ("/tf_static", "tf_static")],  # as in Nav2's launch files
         output="screen",
-        respawn=True,
+        respawn=LaunchConfiguration("respawn"),
         respawn_delay=2.0,
     )
     return LaunchDescription([*arguments, node])

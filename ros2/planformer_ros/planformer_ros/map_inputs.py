@@ -14,7 +14,7 @@ from rclpy.qos import QoSProfile
 from std_msgs.msg import Header
 
 from planformer_ros.messages import costmap_of_map, costmap_of_published, patch_of
-from planformer_ros.qos import LATCHED, UPDATES
+from planformer_ros.qos import LATCHED, LATEST, UPDATES
 from planformer_ros.settings import Wiring
 from planformer_ros.world import World
 
@@ -33,7 +33,8 @@ class MapInputs:
         self._costmap_time = (0, 0)
         wanted: list[tuple[type, str, Callable[[Any], None], QoSProfile]] = []
         if wiring.map_topic:
-            wanted.append((OccupancyGrid, wiring.map_topic, self._on_map, LATCHED))
+            qos = LATCHED if wiring.map_subscribe_transient_local else LATEST
+            wanted.append((OccupancyGrid, wiring.map_topic, self._on_map, qos))
         if wiring.costmap_topic:
             updates = f"{wiring.costmap_topic}_updates"
             wanted.append((OccupancyGrid, wiring.costmap_topic, self._on_costmap, LATCHED))

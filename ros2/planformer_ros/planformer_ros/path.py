@@ -108,6 +108,7 @@ def _plan_until_valid(newest: Newest, start: Pose, goal: Pose, search: _Search) 
     snapshot = newest()
     if snapshot is None:
         raise OutOfTime("there is no map yet")
+    _check_age(snapshot, search.settings.costmap_timeout)
     prepared = prepare(snapshot, start, goal, search.settings)
     while True:
         found = search.run(prepared)
@@ -117,6 +118,13 @@ def _plan_until_valid(newest: Newest, start: Pose, goal: Pose, search: _Search) 
         prepared, snapshot = prepare(now, start, goal, search.settings), now
         if pf.path_is_valid(prepared.problem.grid, prepared.problem.robot, found.result.path):
             return found
+
+
+def _check_age(snapshot: Snapshot, limit: float) -> None:
+    """Refuse a costmap whose sender seems to be gone: obstacles may have come since."""
+    age = time.monotonic() - snapshot.received
+    if snapshot.is_inflated and 0.0 < limit < age:
+        raise OutOfTime(f"the costmap is {age:.1f} s old; costmap_timeout allows {limit:g} s")
 
 
 @dataclass(frozen=True)

@@ -17,3 +17,8 @@ UPDATES = QoSProfile(
     reliability=ReliabilityPolicy.RELIABLE,
 )
 """Updates of costmaps: each changes other cells, so that none may be dropped for a newer one."""
+
+LATEST = QoSProfile(
+    depth=1, durability=DurabilityPolicy.VOLATILE, reliability=ReliabilityPolicy.RELIABLE
+)
+"""Maps from those that send them again and again, and keep none."""

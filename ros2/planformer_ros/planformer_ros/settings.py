@@ -81,6 +81,14 @@ class Settings:
             between=(0.0, 10.0),
         ),
     ] = 0.0
+    costmap_timeout: Annotated[
+        float,
+        About(
+            "age [s] beyond which nothing is planned on a costmap, as its sender seems to be gone; "
+            "0: no limit",
+            between=(0.0, 3600.0),
+        ),
+    ] = 5.0
     turning_radius: Annotated[
         float, About("smallest turning radius of a car [m]", between=(0.01, 100.0))
     ] = 0.55
@@ -236,6 +244,9 @@ class Wiring:
     """
 
     map_topic: Annotated[str, About("plain map, used until a costmap arrives; empty: none")] = "map"
+    map_subscribe_transient_local: Annotated[
+        bool, About("whether the map's sender keeps it for those who come late, as map_server does")
+    ] = True
     costmap_topic: Annotated[
         str, About("costmap that Nav2 publishes, with its updates on <topic>_updates; empty: none")
     ] = "global_costmap/costmap"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+import time
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -19,10 +20,12 @@ class Snapshot:
     Attributes:
         costmap: The costs.
         is_inflated: Whether they are a costmap's, or a plain map's that no one has inflated.
+        received: When it came [s], by `time.monotonic`.
     """
 
     costmap: Costmap
     is_inflated: bool
+    received: float = field(default_factory=time.monotonic)
     _prepared: dict[tuple[float, bool], Costmap] = field(default_factory=dict, init=False)
 
     def for_robot(self, radius: float, *, unknown_is_free: bool) -> Costmap:

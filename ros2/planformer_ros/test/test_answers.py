@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import threading
+import time
 from dataclasses import replace
 from pathlib import Path
 
@@ -208,6 +209,23 @@ class TestPaths:
             CancelToken(),
         )
         assert answer.code is ErrorCode.GOAL_OCCUPIED
+
+    def test_nothing_is_planned_on_an_old_costmap(self, forest):
+        old = Snapshot(forest, is_inflated=True, received=time.monotonic() - 60.0)
+        plain = replace(old, is_inflated=False)
+
+        def answer(snapshot, limit):
+            settings = replace(SETTINGS, costmap_timeout=limit, robot_radius=0.0)
+            return answer_path(lambda: snapshot, START, GOAL, "", settings, CancelToken())
+
+        refused = answer(old, 5.0)
+        assert refused.code is ErrorCode.TIMEOUT
+        assert "the costmap is 60." in refused.message
+        assert "costmap_timeout" in refused.message
+        assert not refused.poses.size
+        assert answer(old, 0.0).code is ErrorCode.NONE
+        assert answer(old, 90.0).code is ErrorCode.NONE
+        assert answer(plain, 5.0).code is ErrorCode.NONE
 
 
 class TestWorld:

@@ -114,6 +114,7 @@ def plan_command(
     import numpy as np
 
     from planformer.api import default_planner, plan
+    from planformer.baselines import learned_planner_names
     from planformer.cli.interrupt import stoppable
     from planformer.cli.report import PlanReport, require_writable
     from planformer.guidance import AUTO, default_guide
@@ -121,6 +122,14 @@ def plan_command(
 
     ends = parse_state(start, "--start"), parse_state(goal, "--goal")
     body = make_robot(robot, radius, turning_radius)
+    if planner in learned_planner_names(body):
+        if guide not in (AUTO, _UNGUIDED) or threshold is not None or exploration:
+            raise InvalidParameter(
+                f"{planner} plans by itself: leave out --guide, --threshold and --exploration"
+            )
+        guide = _UNGUIDED
+    if resolution is None:
+        _require_no_description(map_file)
     grid = load_map(map_file, resolution=resolution, unknown_is_occupied=not unknown_is_free)
     folder = output if output or as_json else Path(f"{map_file.stem}_plan")
     if folder is not None:
@@ -164,6 +173,17 @@ def plan_command(
     else:
         done.print()
     raise typer.Exit(exit_code(result))
+
+
+def _require_no_description(picture: Path) -> None:
+    """Refuse a ROS map's picture: alone it does not say what is unknown, nor its scale."""
+    from planformer.maps.folder import description_of
+
+    if description := description_of(picture):
+        raise InvalidParameter(
+            f"{picture} belongs to {description}, which says what is unknown and how large a cell "
+            "is: plan on that file, or give --resolution to take the picture alone"
+        )
 
 
 def make_robot(kind: RobotKind, radius: float | None, turning_radius: float | None) -> Robot:

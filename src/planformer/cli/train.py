@@ -16,6 +16,7 @@ from planformer.cli.train_baseline import BASELINES, require_none, train_baselin
 
 if TYPE_CHECKING:
     from planformer.training import Progress, TrainConfig, TrainResult
+    from planformer.training.sources import PathSource
 
 
 def train_command(
@@ -89,6 +90,7 @@ def train_command(
         "teacher": None if teacher is None else str(teacher),
     }
     problems, validation = open_paths(data / "train"), open_paths(data / "val")
+    _warn_of_shared_maps(problems, validation)
     if preset in BASELINES:
         require_none(preset, more)
         train_baseline(preset, problems, validation, output, given, as_json=as_json)
@@ -102,6 +104,17 @@ def train_command(
     _print_outcome(result, as_json=as_json)
     if not result.finished:
         raise typer.Exit(INTERRUPTED)
+
+
+def _warn_of_shared_maps(problems: PathSource, validation: PathSource) -> None:
+    own = set(validation.recipes)
+    if shared := own.intersection(problems.recipes):
+        stderr.print(
+            f"warning: {len(shared)} of the {len(own)} maps in val/ are in train/ too, so that the "
+            "validation does not say how good the network is on new ones; `generate` val/ with "
+            "another --seed",
+            soft_wrap=True,
+        )
 
 
 @contextmanager

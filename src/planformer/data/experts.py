@@ -185,22 +185,26 @@ def hybrid_astar(problem: Problem, max_expansions: int) -> NDArray[np.float64] |
         goal last. None where no path was found.
 
     Raises:
-        InvalidParameter: The robot is no car.
+        InvalidParameter: The robot is no car, or turns so sharply that the search's cells, a
+            quarter of its turning radius wide, would be far too many.
     """
     from planformer import _core
 
     robot = problem.robot
     if not isinstance(robot, DubinsCar):
         raise InvalidParameter(f"Hybrid-A* plans for a car; got {type(robot).__name__}")
-    poses = _core.hybrid_astar(
-        problem.blocked,
-        problem.grid.resolution,
-        robot.turning_radius,
-        robot.reverses,
-        problem.local_start,
-        problem.local_goal,
-        max_expansions,
-    )
+    try:
+        poses = _core.hybrid_astar(
+            problem.blocked,
+            problem.grid.resolution,
+            robot.turning_radius,
+            robot.reverses,
+            problem.local_start,
+            problem.local_goal,
+            max_expansions,
+        )
+    except ValueError as error:
+        raise InvalidParameter(f"{robot}: {error}") from error
     if len(poses) == 0:
         return None
     path = problem.grid.frame.to_world(poses)

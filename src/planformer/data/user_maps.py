@@ -6,11 +6,12 @@ from pathlib import Path
 
 import numpy as np
 
-from planformer.data.problems import draw_problems
+from planformer.data.problems import random_problems
 from planformer.data.recipe import StoredMap
 from planformer.errors import InvalidMap, InvalidParameter
 from planformer.maps.folder import map_files
 from planformer.maps.io import LOAD_SUFFIXES, YAML_SUFFIXES, load_map
+from planformer.robots import PointRobot
 
 
 def read_user_maps(
@@ -47,13 +48,14 @@ def read_user_maps(
         stated = file.suffix.lower() in YAML_SUFFIXES
         grid = load_map(file, resolution=None if stated else resolution)
         try:
-            draw_problems(
-                grid,
-                robot_radius,
-                1,
-                min_distance=min_distance,
-                max_distance=max_distance,
-                rng=np.random.default_rng(0),
+            next(
+                random_problems(
+                    grid,
+                    PointRobot(robot_radius),
+                    min_distance=min_distance,
+                    max_distance=max_distance,
+                    rng=np.random.default_rng(0),
+                )
             )
         except InvalidParameter as error:
             raise InvalidMap(f"{file} cannot be used: {error}") from error

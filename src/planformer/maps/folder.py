@@ -31,6 +31,12 @@ def map_files(folder: Path) -> list[Path]:
     ]
 
 
+def description_of(picture: Path) -> Path | None:
+    """The YAML file beside a picture that makes it a ROS map; None where there is none."""
+    beside = (picture.with_suffix(suffix) for suffix in YAML_SUFFIXES)
+    return next((file for file in beside if picture_of(file) == picture.resolve()), None)
+
+
 def picture_of(file: Path) -> Path | None:
     """The picture that a ROS map's YAML file names; what is wrong with the file shows later."""
     try:

@@ -38,8 +38,9 @@ class Snapshot:
 class Progress:
     """Snapshots of one search at a time: pass it to `plan`, call `latest` from another thread.
 
-    The planner's own thread takes them between two of its steps. SST, and planners that end with
-    their first path, know of no path before; learned planners take no snapshots.
+    The planner's own thread takes them between two of its steps. AITstar, LazyPRMstar, SST and
+    planners that end with their first path know of no path before; learned planners take no
+    snapshots.
 
     Args:
         interval: Seconds from one snapshot to the next; more where snapshots of a large tree would

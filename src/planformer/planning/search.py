@@ -95,8 +95,8 @@ def search(
         exploration: Share of the samples drawn from the whole map, 0 to 1.
         refinement: Share of the samples drawn near the best path, 0 to 1, once there is one; they
             may leave the region, and exploration is a share of the others. 0 gives OMPL's planner
-            as it is; None is `REFINEMENT`, or `REFINEMENT_IN_REGION` in one. AITstar and SST do
-            not refine.
+            as it is; None is `REFINEMENT`, or `REFINEMENT_IN_REGION` in one. AITstar,
+            LazyPRMstar and SST do not refine.
         limits: When to stop; five seconds by default.
         seed: 0 to 2**32 - 1; the same seed gives the same result unless the time limit ends the
             search. None draws one.
@@ -123,6 +123,7 @@ def search(
     for name, share in (("exploration", exploration), ("refinement", refinement)):
         if not 0.0 <= share <= 1.0:
             raise InvalidParameter(f"{name} must be between 0 and 1; got {share}")
+    record = None if progress is None else progress.begin(problem)
     if _starts_at_goal(problem):
         return _without_search(problem, PlanStatus.FINISHED, [problem.start, problem.goal], started)
     if not problem.is_connected:
@@ -140,15 +141,20 @@ def search(
         region=core_region,
         exploration=exploration,
         refinement=refinement,
-        limits=_core.Limits(limits.seconds, limits.target_length, limits.max_vertices),
+        limits=_core.Limits(limits.seconds, limits.target_length, _vertex_limit(limits)),
         seed=checked_seed(seed),
         keep_tree=keep_tree,
         cancellation=cancel,
-        progress=None if progress is None else progress.begin(problem),
+        progress=record,
         # Ctrl-C reaches the main thread alone; others would only wait for each other's Python.
         handle_signals=threading.current_thread() is threading.main_thread(),
     )
     return _to_result(answer, problem, preparation, keep_tree=keep_tree)
+
+
+def _vertex_limit(limits: SearchLimits) -> int | None:
+    """More than the core can count is no limit."""
+    return None if limits.max_vertices is None else min(int(limits.max_vertices), 2**64 - 1)
 
 
 def _starts_at_goal(problem: Problem) -> bool:

@@ -12,6 +12,7 @@
 #include "planformer_nav2/grid.hpp"
 #include "planformer_nav2/nav2_interface.hpp"
 #include "planformer_nav2/region_client.hpp"
+#include "planformer_nav2/settings.hpp"
 
 namespace planformer_nav2 {
 
@@ -48,20 +49,15 @@ private:
         double seconds = 0.0;
     };
 
-    void read_parameters(rclcpp_lifecycle::LifecycleNode& node);
     Path plan(const Query& query);
-    Path plan_guided(const Query& query);
-    Proposal propose(const Query& query);
-    Path plan_inside(const Proposal& proposal, const Query& query);
-    bool enters_unknown() const;
+    Path plan_guided(const Query& query, const Settings& settings);
+    Proposal propose(const Query& query, const Settings& settings);
+    Path plan_inside(const Proposal& proposal, const Query& query, const Settings& settings);
 
     std::string name_;
-    Node::WeakPtr parent_;
     rclcpp::Logger logger_ = rclcpp::get_logger("planformer_nav2");
     std::shared_ptr<nav2_costmap_2d::Costmap2DROS> costmap_ros_;
-    std::string guide_;
-    double keep_radius_ = 0.0;  ///< [m]
-    bool fallback_ = true;
+    LiveSettings settings_;
     std::unique_ptr<RegionClient> client_;
     pluginlib::ClassLoader<nav2_core::GlobalPlanner> loader_;  ///< has to outlive what it loads
     std::shared_ptr<nav2_core::GlobalPlanner> planner_;

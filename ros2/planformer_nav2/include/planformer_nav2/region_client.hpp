@@ -14,22 +14,22 @@ class RegionClient {
 public:
     using Service = planformer_msgs::srv::ProposeRegion;
 
-    RegionClient(rclcpp_lifecycle::LifecycleNode& node, const std::string& service,
-                 std::chrono::nanoseconds timeout);
+    RegionClient(rclcpp_lifecycle::LifecycleNode& node, const std::string& service);
 
     /// Returns an answer without error.
     ///
     /// Throws PlannerCancelled, PlannerTimedOut, the exception of the answer's error code, or
     /// PlannerException where there is no such service.
     Service::Response::SharedPtr propose(const Service::Request::SharedPtr& request,
+                                         std::chrono::nanoseconds timeout,
                                          const std::function<bool()>& cancelled);
 
 private:
     Service::Response::SharedPtr wait_for(rclcpp::Client<Service>::FutureAndRequestId& answer,
+                                          std::chrono::nanoseconds timeout,
                                           const std::function<bool()>& cancelled);
 
     std::string service_;
-    std::chrono::nanoseconds timeout_;
     rclcpp::CallbackGroup::SharedPtr group_;
     rclcpp::Client<Service>::SharedPtr client_;
     rclcpp::executors::SingleThreadedExecutor executor_;
