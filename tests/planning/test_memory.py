@@ -48,30 +48,15 @@ def test_memory_stays_flat_over_many_plans(open_room, robot, planners, keep_tree
 
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="reads /proc")
-def test_the_states_of_lazy_prm_are_freed(forest):
-    """OMPL's destructor forgets them: 5 kB a plan here."""
+@pytest.mark.parametrize("planner", ["LazyPRMstar", "SORRTstar"])
+def test_what_destructors_of_ompl_forget_is_freed(forest, planner):
+    """LazyPRM*'s states, and the samples that SORRT* has not used: 5 and 6 kB a plan."""
     problem = random_problem(forest, POINT, 2, apart=(4.0, 12.0))
     limits = SearchLimits(60.0, max_vertices=60)
 
     def plan_often(count):
         for seed in range(count):
-            search(problem, "LazyPRMstar", limits=limits, seed=seed)
-
-    plan_often(100)
-    before = resident_bytes()
-    plan_often(800)
-    assert resident_bytes() - before < 2 * MEGABYTE
-
-
-@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="reads /proc")
-def test_the_samples_of_sorrt_star_are_freed(open_room):
-    """OMPL's sampler forgets those that it has not used: 6 kB a plan here."""
-    problem = random_problem(open_room, POINT, 2)
-    limits = SearchLimits(60.0, max_vertices=60)
-
-    def plan_often(count):
-        for seed in range(count):
-            search(problem, "SORRTstar", limits=limits, seed=seed)
+            search(problem, planner, limits=limits, seed=seed)
 
     plan_often(100)
     before = resident_bytes()

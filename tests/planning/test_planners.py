@@ -272,15 +272,19 @@ def test_every_seed_of_32_bits_works(open_room, seed):
 
 
 def test_prm_star_tells_of_milestones_without_an_edge():
-    """A room that is cut off from start and goal; OMPL's planner data has nothing of it."""
-    occupied = np.zeros((60, 120), bool)
-    occupied[:, 58:62] = True
-    occupied[20:40, 25:30] = True
+    """Cells that are cut off from all others; OMPL's planner data has nothing of what is there."""
+    occupied = np.ones((60, 120), bool)
+    occupied[2:58, 2:40] = False
+    occupied[20:40, 18:22] = True
+    for row, column in np.ndindex(5, 6):
+        occupied[12 * row + 1 : 12 * row + 11, 12 * column + 45 : 12 * column + 55] = False
     grid = pf.OccupancyGrid(occupied, 0.05)
-    problem = Problem(grid, POINT, (0.5, 1.5), (2.5, 1.5))
-    limits = SearchLimits(60.0, max_vertices=4)
+    problem = Problem(grid, POINT, (0.5, 1.5), (1.5, 1.5))
+    limits = SearchLimits(60.0, max_vertices=30)
     result = search(problem, "PRMstar", limits=limits, seed=1, keep_tree=True)
-    assert len(result.tree.vertices) == result.vertices >= 4
+    assert len(result.tree.vertices) == result.vertices >= 30
+    alone = {*range(result.vertices)} - {*result.tree.edges.ravel().tolist()}
+    assert len(alone) > 2  # start and goal would be two
 
 
 @pytest.mark.parametrize("planner", ["BITstar", "ABITstar"])
