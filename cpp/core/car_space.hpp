@@ -19,7 +19,6 @@ public:
     CarSpace(double turning_radius, bool reverse);
 
     double turning_radius() const { return turning_radius_; }
-    bool reverse() const { return reverse_; }
 
     /// The shortest curve between two states.
     Curve curve(const ompl::base::State* from, const ompl::base::State* to) const;

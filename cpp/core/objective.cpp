@@ -1,5 +1,6 @@
 #include "core/objective.hpp"
 
+#include <ompl/base/SpaceInformation.h>
 #include <ompl/base/goals/GoalState.h>
 
 #include <algorithm>
@@ -81,7 +82,18 @@ bool RegionInformedSampler::sampleUniform(ob::State* state, const ob::Cost& min_
     const bool possible = max_cost.value() > ellipse_->getMinTransverseDiameter();
     const bool drawn = possible && draw(min_cost.value(), max_cost.value(), &pose);
     write_state(*space_, drawn ? pose : start_, state);
-    return drawn;
+    if (!drawn || !is_stuck(state)) return drawn;
+    write_state(*space_, start_, state);
+    return false;
+}
+
+/// Whether this is one more of many states in collision: AIT* asks for samples until one is free,
+/// and never looks at the clock meanwhile.
+bool RegionInformedSampler::is_stuck(const ob::State* state) {
+    in_collision_ = probDefn_->getSpaceInformation()->isValid(state) ? 0 : in_collision_ + 1;
+    if (in_collision_ < kMaxDraws) return false;
+    in_collision_ = 0;
+    return true;
 }
 
 double RegionInformedSampler::getInformedMeasure(const ob::Cost& cost) const {

@@ -33,6 +33,7 @@ public:
 private:
     Pose sample_ellipse();
     bool draw(double min_cost, double max_cost, Pose* pose);
+    bool is_stuck(const ompl::base::State* state);
     double heuristic(const Pose& pose) const;
 
     Guidance guidance_;
@@ -40,7 +41,8 @@ private:
     Pose start_;
     Pose goal_;
     bool is_car_;
-    double yaw_measure_;  ///< 2 pi for the car, 1 for the point
+    double yaw_measure_;             ///< 2 pi for the car, 1 for the point
+    unsigned int in_collision_ = 0;  ///< draws in a row
     ompl::RNG rng_;
     ompl::ProlateHyperspheroidPtr ellipse_;
 };

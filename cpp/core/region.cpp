@@ -148,8 +148,9 @@ Pose sample_guided(const Guidance& guidance, const Extent& extent, ompl::RNG& rn
     for (int i = 0; i < kMaxRedraws && !extent.contains(pose); ++i) {
         pose = sample_region(*guidance.region, rng);
     }
-    pose.x = std::clamp(pose.x, 0.0, extent.x);
-    pose.y = std::clamp(pose.y, 0.0, extent.y);
+    // The map does not contain its far edges.
+    pose.x = std::clamp(pose.x, 0.0, std::nextafter(extent.x, 0.0));
+    pose.y = std::clamp(pose.y, 0.0, std::nextafter(extent.y, 0.0));
     return pose;
 }
 

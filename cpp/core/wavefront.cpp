@@ -18,6 +18,10 @@ using Length = std::uint32_t;
 constexpr Length kStraight = 985;
 constexpr Length kDiagonal = 1393;
 constexpr Length kUnreached = std::numeric_limits<Length>::max();
+/// Ways that are longer, of millions of cells, are none: a step beyond would not fit.
+constexpr Length kLongest = kUnreached - kDiagonal - 1;
+/// Sums of lengths.
+using Total = std::uint64_t;
 
 float in_cells(Length length) {
     return length == kUnreached ? std::numeric_limits<float>::infinity()
@@ -111,6 +115,7 @@ private:
 
     void expand(Cell cell) {
         const Length length = this->length(cell);
+        if (length > kLongest) return;
         const auto step = [&](int rows, int cols, Length size) {
             return reach(grid_.beside(cell, rows, cols), length + size);
         };
@@ -139,14 +144,14 @@ private:
     /// the pages of zeros that nothing touches.
     std::unique_ptr<Length[], FreeMemory> length_plus_1_;
     std::vector<Cell> buckets_[3];
-    Length floor_ = 0;  ///< Lower edge of the first bucket.
+    Total floor_ = 0;  ///< Lower edge of the first bucket.
 };
 
 /// Distance between two cells of a grid without obstacles.
-Length octile(Cell from, Cell to) {
-    const auto rows = static_cast<Length>(std::abs(from.row - to.row));
-    const auto cols = static_cast<Length>(std::abs(from.col - to.col));
-    const Length diagonal = std::min(rows, cols);
+Total octile(Cell from, Cell to) {
+    const auto rows = static_cast<Total>(std::abs(from.row - to.row));
+    const auto cols = static_cast<Total>(std::abs(from.col - to.col));
+    const Total diagonal = std::min(rows, cols);
     return kStraight * (std::max(rows, cols) - diagonal) + kDiagonal * diagonal;
 }
 
@@ -161,8 +166,8 @@ std::vector<int> squares(int cells, int side) {
 /// the target's distance + limit; and at others, where they may be too long.
 ///
 /// The bound grows until it suffices: by A*'s argument, what is within a bound is exact.
-void spread_towards(Wave& wave, Cell source, Cell target, Length limit) {
-    Length bound = octile(source, target) + limit;
+void spread_towards(Wave& wave, Cell source, Cell target, Total limit) {
+    Total bound = octile(source, target) + limit;
     std::vector<Cell> stopped;
     const auto admit = [&](Cell cell) {
         if (wave.length(cell) + octile(cell, target) <= bound) return true;
@@ -211,7 +216,7 @@ std::optional<Detours> detours(const FreeSpace& space, std::array<int, 2> start,
     Wave outward(grid);
     // No detour on the grid is as long as a step for each of its cells.
     const double cells = std::min(limit, static_cast<double>(grid.size()));
-    const auto longest_detour = static_cast<Length>(cells * kStraight);
+    const auto longest_detour = static_cast<Total>(cells * kStraight);
     spread_towards(outward, source, target, longest_detour);
     const Length shortest = outward.length(target);
     if (shortest == kUnreached) return std::nullopt;
@@ -229,13 +234,13 @@ std::optional<Detours> detours(const FreeSpace& space, std::array<int, 2> start,
         const Length length = inward.length(cell);
         const Length from_start = outward.length(cell);
         if (from_start == kUnreached) return false;
-        const Length detour = from_start + length - shortest;
+        const Total detour = Total{from_start} + length - shortest;
         if (detour > longest_detour) return false;
         const std::size_t square =
             static_cast<std::size_t>(rows[cell.row]) * width + cols[cell.col];
         least_from_start[square] = std::min(least_from_start[square], from_start);
         least_from_goal[square] = std::min(least_from_goal[square], length);
-        least_excess[square] = std::min(least_excess[square], detour);
+        least_excess[square] = std::min(least_excess[square], static_cast<Length>(detour));
         return true;
     });
     return Detours{height, width, in_cells(least_from_start), in_cells(least_from_goal),

@@ -9,8 +9,8 @@ from typing import cast
 
 from planformer import planning
 from planformer.baselines import learned_planner_names, load_planner
-from planformer.errors import UnknownPlanner
-from planformer.guidance import AUTO, Region, RegionProposer, resolve_guide
+from planformer.errors import InvalidParameter, UnknownPlanner
+from planformer.guidance import AUTO, Guide, Region, resolve_guide
 from planformer.maps import OccupancyGrid
 from planformer.planning import (
     CancelToken,
@@ -31,7 +31,7 @@ def plan(
     goal: Sequence[float],
     *,
     planner: str = AUTO,
-    guide: str | RegionProposer | None = AUTO,
+    guide: Guide | None = AUTO,
     threshold: float | None = None,
     exploration: float = 0.0,
     refinement: float | None = None,
@@ -90,15 +90,11 @@ def plan(
     if progress is not None:
         progress.begin(problem)  # of a former search it has nothing to tell from now on
     limits = SearchLimits(time_limit, target_length, max_vertices)
-    if planner == AUTO:
-        planner = default_planner(robot, guided=guide is not None)
+    planner = resolve_planner(planner, robot, guided=guide is not None)
     if planner in learned_planner_names(robot):
         return load_planner(planner).search(problem, limits=limits, seed=seed, cancel=cancel)
-    if planner not in (names := planner_names(robot)):
-        raise UnknownPlanner(
-            f"unknown planner {planner!r} for a {type(robot).__name__}; valid names: "
-            f"{', '.join(names)}"
-        )
+    if guide is None and threshold is not None:
+        raise InvalidParameter("a threshold needs the name of weights as guide")
     region, seconds = None, 0.0
     if guide is not None:
         started = time.perf_counter()
@@ -133,6 +129,22 @@ def default_planner(robot: Robot, *, guided: bool = True) -> str:
     return "BITstar" if guided and not isinstance(robot, DubinsCar) else "InformedRRTstar"
 
 
+def resolve_planner(planner: str, robot: Robot, *, guided: bool) -> str:
+    """Turn "auto" into `default_planner`, and check another name.
+
+    Raises:
+        UnknownPlanner: No such planner for this robot.
+    """
+    if planner == AUTO:
+        return default_planner(robot, guided=guided)
+    if planner not in (names := planner_names(robot)):
+        raise UnknownPlanner(
+            f"unknown planner {planner!r} for a {type(robot).__name__}; valid names: "
+            f"{', '.join(names)}"
+        )
+    return planner
+
+
 def planner_names(robot: Robot) -> list[str]:
     """Names of the planners that `plan` has for a robot: OMPL's classes, then the learned ones."""
     return [*planning.planner_names(robot), *learned_planner_names(robot)]
@@ -144,7 +156,7 @@ def propose_region(
     start: Sequence[float],
     goal: Sequence[float],
     *,
-    guide: str | RegionProposer = AUTO,
+    guide: Guide = AUTO,
     threshold: float | None = None,
 ) -> Region:
     """Propose where on the map a good path runs, without planning.

@@ -7,8 +7,8 @@ from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
 from typing import Any
 
 from planformer.api import plan, propose_region
-from planformer.errors import UnknownGuide
-from planformer.guidance import AUTO, Region, RegionProposer, resolve_guide
+from planformer.errors import InvalidParameter, UnknownGuide
+from planformer.guidance import AUTO, Guide, Region, resolve_guide
 from planformer.maps import OccupancyGrid
 from planformer.planning import CancelToken, PlanResult
 from planformer.processes import cores
@@ -32,7 +32,7 @@ class MapSession:
     Raises:
         UnknownGuide: No such weights.
         InvalidWeights: Their files are damaged.
-        InvalidParameter: The threshold is out of range, or the guide has its own.
+        InvalidParameter: The threshold is out of range, or the guide is not given by name.
     """
 
     def __init__(
@@ -40,11 +40,13 @@ class MapSession:
         grid: OccupancyGrid,
         robot: Robot,
         *,
-        guide: str | RegionProposer | None = AUTO,
+        guide: Guide | None = AUTO,
         threshold: float | None = None,
     ) -> None:
         self._grid = grid
         self._robot = robot
+        if guide is None and threshold is not None:
+            raise InvalidParameter("a threshold needs the name of weights as guide")
         self._guide = None if guide is None else resolve_guide(guide, robot, threshold)
 
     @property
@@ -73,7 +75,7 @@ class MapSession:
 
     def plan(self, start: Sequence[float], goal: Sequence[float], **options: Any) -> PlanResult:
         """Plan a path; other options, and errors, are those of `planformer.plan`."""
-        return plan(self._grid, self._robot, start, goal, guide=self._guide, **options)
+        return plan(self._grid, self._robot, start, goal, **{"guide": self._guide, **options})
 
     def plan_all(
         self, queries: Iterable[Query], *, workers: int | None = None, **options: Any
@@ -82,7 +84,7 @@ class MapSession:
 
         Args:
             queries: Start and goal of each.
-            workers: Number of threads; None for one a core.
+            workers: Number of threads, >= 1; None for one a core.
             **options: As in `planformer.plan`, the same for all; `cancel` ends all, and is
                 cancelled when one fails.
 
@@ -90,8 +92,11 @@ class MapSession:
             The results, in the order of the queries.
 
         Raises:
+            InvalidParameter: There are no workers.
             PlanformerError: Of the first query that fails; it ends the others.
         """
+        if workers is not None and workers < 1:
+            raise InvalidParameter(f"workers must be >= 1; got {workers}")
         grid = self._grid
         grid.components(self._robot.radius)  # once, before the threads ask for it
         options = {"guide": self._guide, **options}

@@ -154,7 +154,8 @@ def test_a_car_is_refused(network):
 
 
 @pytest.mark.parametrize(
-    "settings", [{"steps": 0}, {"replans": -1}, {"restarts": 0}, {"repair_seconds": math.nan}]
+    "settings",
+    [{"steps": 0}, {"steps": 2.5}, {"replans": -1}, {"restarts": 0}, {"repair_seconds": math.nan}],
 )
 def test_impossible_settings(network, settings):
     with pytest.raises(InvalidParameter, match=next(iter(settings))):

@@ -172,7 +172,12 @@ def test_what_does_not_fit_is_refused(network):
         NextPlanner(network).search(car)
     with pytest.raises(InvalidParameter, match="seed"):
         NextPlanner(network).search(door_problem(0), seed=-1)
-    for name, value in (("samples", 0), ("exploration", 1.5), ("uncertainty", math.nan)):
+    for name, value in (
+        ("samples", 0),
+        ("samples", 2.5),
+        ("exploration", 1.5),
+        ("uncertainty", math.nan),
+    ):
         with pytest.raises(InvalidParameter, match=name):
             dataclasses.replace(NextPlanner(network), **{name: value})
 

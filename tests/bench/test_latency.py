@@ -5,7 +5,7 @@ import json
 import pytest
 
 from planformer.bench.latency import ROWS, STAGES, run_latency
-from planformer.errors import InvalidParameter
+from planformer.errors import InvalidParameter, InvalidResults
 
 
 def test_every_stage_of_every_row_is_timed(tmp_path):
@@ -25,3 +25,11 @@ def test_every_stage_of_every_row_is_timed(tmp_path):
 def test_a_measurement_of_nothing_is_refused(tmp_path):
     with pytest.raises(InvalidParameter, match="problems"):
         run_latency(tmp_path, problems=0)
+
+
+def test_a_folder_that_cannot_take_the_results_is_refused_at_once(tmp_path):
+    (tmp_path / "file").touch()
+    (tmp_path / "bench.json").touch()
+    for folder, reason in ((tmp_path / "file", "cannot be made"), (tmp_path, "another benchmark")):
+        with pytest.raises(InvalidResults, match=reason):
+            run_latency(folder, problems=10**9)

@@ -81,3 +81,16 @@ def test_an_unknown_system_is_an_error_with_the_choices(cli, tmp_path):
     result = cli("bench", "table1", "--problems", "1", "--systems", "RRT", "--output", tmp_path)
     assert result.exit_code == 2
     assert "MPT-RRT*-EE" in " ".join(result.output.split())
+
+
+def test_tables_without_the_systems_are_left_out(cli, tmp_path):
+    command = ["bench", "all", "--problems", "1", "--systems", "SST", "--limit", "0.2"]
+    result = cli(*command, "--output", str(tmp_path))
+    assert result.exit_code == 0, result.output
+    assert result.output.count("is left out: it has none of the systems") == 3
+    assert [folder.name for folder in tmp_path.iterdir()] == ["table4"]
+
+
+def test_a_table_without_workers_is_refused(cli, tmp_path):
+    result = cli("bench", "table1", "--problems", 1, "--workers", 0, "--output", tmp_path)
+    assert (result.exit_code, "workers must be >= 1" in result.output) == (2, True)

@@ -120,6 +120,7 @@ def test_a_shard_in_the_place_of_another_is_an_error(small_dataset, other):
         ({"paths_per_map": 5}, "paths a map"),
         ({"robot_radius": 0.2}, "robot"),
         ({"width": 13.0}, "maps"),
+        ({"seed": 99}, "maps"),
     ],
 )
 def test_a_shard_made_with_other_settings_is_an_error(

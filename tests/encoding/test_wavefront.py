@@ -103,3 +103,10 @@ def test_a_cell_outside_the_grid_is_refused(cell):
     for ends in ((cell, (0, 0)), ((0, 0), cell)):
         with pytest.raises(IndexError):
             detours(np.zeros((2, 3), bool), *ends, 1.0, 1)
+
+
+def test_a_way_too_long_to_be_counted_is_none():
+    blocked = np.zeros((2999, 3000), bool)
+    blocked[1::4, :-1] = blocked[3::4, 1:] = True  # a serpentine of 4.5 million cells
+    assert detours(blocked, (0, 0), (2998, 0), 10.0, 60) is None
+    assert detours(blocked, (0, 0), (2000, 0), 10.0, 60) is not None

@@ -272,14 +272,34 @@ def test_values_that_are_no_number_are_refused(room, make_weights):
 
 
 def test_a_guide_must_propose(room):
-    with pytest.raises(UnknownGuide, match="RegionProposer"):
-        pf.plan(room.grid, room.robot, room.start, room.goal, guide=3.0)
+    class Proposer:
+        def propose(self, problem): ...
+
+    for guide in (3.0, Proposer):  # a class proposes nothing, its objects do
+        with pytest.raises(UnknownGuide, match="RegionProposer"):
+            pf.plan(room.grid, room.robot, room.start, room.goal, guide=guide)
+    with pytest.raises(UnknownGuide, match="a path or a RegionProposer"):
+        pf.propose_region(room.grid, room.robot, room.start, room.goal, guide=None)
+
+
+def test_a_guide_may_be_a_path(room, make_weights):
+    path = make_weights(0.75)
+    regions = [
+        pf.propose_region(room.grid, room.robot, room.start, room.goal, guide=guide)
+        for guide in (path, str(path))
+    ]
+    assert regions[0].probability.tolist() == regions[1].probability.tolist()
 
 
 @pytest.mark.parametrize("threshold", [-0.1, 1.5, float("nan")])
 def test_a_threshold_is_a_probability(room, threshold):
     with pytest.raises(InvalidParameter, match="threshold"):
         pf.propose_region(room.grid, room.robot, room.start, room.goal, threshold=threshold)
+
+
+def test_a_threshold_needs_a_guide(room):
+    with pytest.raises(InvalidParameter, match="threshold needs"):
+        pf.plan(room.grid, room.robot, room.start, room.goal, guide=None, threshold=0.5)
 
 
 @pytest.mark.parametrize("shape", [(1, 1), (7, 300), (333, 41)])

@@ -114,3 +114,9 @@ def test_headings_turn_with_the_map(room):
         room, np.ones((4, 6), np.float32), SCALE, headings=np.full((4, 6), 0.5), threshold=0.5
     )
     np.testing.assert_allclose(region.sampling().headings, 0.5 + room.grid.frame.yaw)
+
+
+@pytest.mark.parametrize("shape", [(6, 4), (4, 5), (5, 6), (1, 1)])
+def test_anchors_of_another_map_are_refused(room, shape):
+    with pytest.raises(InvalidParameter, match=r"probability must have the shape \(4, 6\)"):
+        make_region(room, np.ones(shape, np.float32), SCALE)

@@ -42,6 +42,13 @@ def test_all_queries_at_once_give_what_they_give_one_by_one(forest):
     assert session.plan_all([]) == []
 
 
+def test_a_query_may_have_a_guide_of_its_own(forest):
+    session, queries = pf.MapSession(forest, ROBOT), _queries(forest, 2)
+    options = {"guide": None, "seed": 1, "max_vertices": 100}
+    results = [session.plan(*queries[0], **options), *session.plan_all(queries, **options)]
+    assert [result.region for result in results] == [None] * 3
+
+
 def test_a_new_map_counts_from_the_next_query_on(forest):
     session = pf.MapSession(forest, ROBOT, guide=None)
     (start, goal), *_ = _queries(forest, 1)
@@ -60,7 +67,11 @@ def test_what_is_wrong_is_told_at_once(forest):
         pf.MapSession(forest, ROBOT, guide="nothing")
     with pytest.raises(InvalidParameter, match="threshold"):
         pf.MapSession(forest, ROBOT, threshold=2.0)
+    with pytest.raises(InvalidParameter, match="threshold needs"):
+        pf.MapSession(forest, ROBOT, guide=None, threshold=0.5)
     session = pf.MapSession(forest, ROBOT, guide=None)
+    with pytest.raises(InvalidParameter, match="workers"):
+        session.plan_all(_queries(forest, 2), workers=0)
     with pytest.raises(UnknownGuide, match="no guide"):
         session.propose_region((1.0, 1.0), (2.0, 2.0))
     queries = [*_queries(forest, 3), ((-1.0, 0.0), (1.0, 1.0))]

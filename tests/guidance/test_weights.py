@@ -28,7 +28,19 @@ def test_every_shipped_file_is_an_onnx_file_with_a_card():
         assert (SHIPPED / f"{stem}.json").is_file()
 
 
-@pytest.mark.parametrize("guide", ["nonsense", "", "../weights/mpt", "missing.onnx", "/etc/passwd"])
+@pytest.mark.parametrize(
+    "guide",
+    [
+        "nonsense",
+        "",
+        "../weights/mpt",
+        "missing.onnx",
+        "/etc/passwd",
+        300 * "a",
+        300 * "a" + ".onnx",
+        "nul\0",
+    ],
+)
 def test_an_unknown_guide_lists_the_valid_names(guide):
     with pytest.raises(UnknownGuide, match=r"valid: mpt, mpt-dubins, mpt-paper, "):
         load_network(guide)
@@ -91,3 +103,11 @@ def test_a_replaced_file_is_loaded_again(make_weights, room):
     make_weights(0.75)
     second = load_network(str(path)).predict(room).probability
     np.testing.assert_allclose([first.max(), second.max()], [0.25, 0.75])
+
+
+def test_a_file_whose_card_has_changed_is_loaded_again(make_weights):
+    path = make_weights()
+    assert load_network(str(path)).weights.card.get("note") is None
+    card = path.with_suffix(".json")
+    card.write_text(json.dumps({**json.loads(card.read_text()), "note": "corrected"}))
+    assert load_network(str(path)).weights.card["note"] == "corrected"

@@ -69,7 +69,9 @@ def test_bad_cells_are_rejected(occupied):
         OccupancyGrid(occupied)
 
 
-@pytest.mark.parametrize("resolution", [0.0, -1.0, math.nan, math.inf, "wide", None])
+@pytest.mark.parametrize(
+    "resolution", [0.0, -1.0, math.nan, math.inf, "wide", None, 1e39, 1e-9, 10**400]
+)
 def test_bad_resolutions_are_rejected(resolution):
     with pytest.raises(InvalidMap, match="resolution"):
         OccupancyGrid([[0]], resolution)

@@ -14,6 +14,7 @@ from PIL import Image
 
 from planformer.errors import InvalidMap, InvalidParameter
 from planformer.maps import OccupancyGrid
+from planformer.maps.folder import map_files
 from planformer.maps.ros import load_ros_map, save_ros_map
 
 METADATA = {
@@ -311,3 +312,14 @@ def test_real_maps(real_maps, tmp_path, name, shape, origin, occupied, unknown):
     assert grid.occupied.sum() == occupied + unknown
     save_ros_map(grid, tmp_path / "again.yaml")
     assert load_ros_map(tmp_path / "again.yaml") == grid
+
+
+@pytest.mark.parametrize("value", ["0x" + 4000 * "f", "1:" + 200 * "0:" + "0.5", 3000 * "9"])
+@pytest.mark.parametrize("name", ["negate", "resolution", "mode"])
+def test_huge_values_are_refused(tmp_path, name, value):
+    file = write_map(tmp_path, GREYS)
+    lines = [line for line in file.read_text().splitlines() if not line.startswith(name)]
+    file.write_text("\n".join([*lines, f"{name}: {value}"]))
+    with pytest.raises(InvalidMap, match=r"map\.yaml"):
+        load_ros_map(file)
+    assert map_files(tmp_path) == sorted(tmp_path.iterdir())  # the picture is nobody's

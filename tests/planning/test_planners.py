@@ -263,6 +263,9 @@ def test_exploration_and_refinement_are_shares(open_room, name, share):
 def test_a_seed_is_a_whole_number_of_32_bits(open_room, seed):
     with pytest.raises(InvalidParameter, match="seed"):
         search(random_problem(open_room, POINT, 1), "RRT", seed=seed)
+    there = random_problem(open_room, POINT, 1).start
+    with pytest.raises(InvalidParameter, match="seed"):
+        search(Problem(open_room, POINT, there, there), "RRT", seed=seed)
 
 
 @pytest.mark.parametrize("seed", [0, 1, 2**32 - 1, np.int64(5)])

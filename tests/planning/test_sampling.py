@@ -13,7 +13,7 @@ import planformer as pf
 from planformer import _core
 from planformer.errors import InvalidParameter
 from planformer.geometry import wrap_angle
-from planformer.planning import Problem, SamplingRegion, SearchLimits, search
+from planformer.planning import Problem, SamplingRegion, SearchLimits, planner_names, search
 from planformer.planning.sampling import ELLIPSE_ASPECT, YAW_DEVIATION
 
 from .conftest import DUBINS, POINT, REEDS_SHEPP
@@ -291,12 +291,13 @@ def test_a_region_beside_the_map_does_no_harm(two_rooms, planner):
     assert two_rooms.contains(result.tree.vertices).all()
 
 
-def test_a_region_only_beside_the_map_ends_by_the_clock(two_rooms):
-    region = region_of(two_rooms.frame.to_world([(-50.0, -50.0)]))
-    for planner in ("RRTstar", "InformedRRTstar", "BITstar", "PRMstar", "FMT"):
-        limits = SearchLimits(0.1)
-        result = search(problem_in(two_rooms, POINT), planner, region=region, limits=limits, seed=1)
-        assert result.planning_seconds < 60.0
+@pytest.mark.parametrize("planner", planner_names(POINT))
+@pytest.mark.parametrize("anchor", [(-50.0, -50.0), (3.0, 2.0)])  # beside the map, in the wall
+def test_a_region_without_free_cells_ends_by_the_clock(two_rooms, planner, anchor):
+    region = region_of(two_rooms.frame.to_world([anchor]), half_width=0.01)
+    limits = SearchLimits(0.1)
+    result = search(problem_in(two_rooms, POINT), planner, region=region, limits=limits, seed=1)
+    assert result.planning_seconds < 60.0
 
 
 @pytest.mark.parametrize(

@@ -195,3 +195,9 @@ def test_arcs_much_shorter_than_a_cell_are_told_from_skids(kind):
     assert result.length > 0.05
     turns = np.abs(np.angle(np.exp(1j * np.diff(result.path[:, 2]))))
     assert turns.max() <= np.pi / 2 + 1e-9
+
+
+@pytest.mark.parametrize("path", [[(0.0, 0.0), (1.0,)], "path", [("here", "there")], None])
+def test_a_path_that_is_not_of_numbers_is_an_error(open_room, path):
+    with pytest.raises(InvalidProblem, match="path"):
+        pf.path_is_valid(open_room, POINT, path)

@@ -188,3 +188,15 @@ def test_a_full_folder_takes_no_more(make_server, room_files, tmp_path):
     client = make_server(folder=folder, maps=1)
     full = client.post("/maps", files=room_files)
     assert (full.status_code, full.json()["error"]) == (507, "StoreFull")
+
+
+def test_a_file_that_somebody_removed_is_no_map_any_more(make_server, tmp_path):
+    (tmp_path / "hall.map").write_bytes(MOVINGAI)
+    client = make_server(folder=tmp_path)
+    arena = client.get("/maps").json()[0]["id"]
+    (tmp_path / "hall.map").unlink()
+    assert client.delete(f"/maps/{arena}").status_code == 404
+    assert client.get("/maps").json() == []
+    again = client.post("/maps", files={"files": ("arena.map", MOVINGAI)})
+    assert again.json()["id"] == arena
+    assert (tmp_path / f"{arena}.yaml").is_file()

@@ -207,3 +207,14 @@ def running(client):
     """How many searches the server runs."""
     lines = client.get("/metrics").text.splitlines()
     return next(float(line.split()[1]) for line in lines if line.startswith(RUNNING))
+
+
+@pytest.mark.parametrize(
+    ("change", "error"),
+    [({"guide": "mpt-dubins"}, "WeightsMismatch"), ({"planner": "SST"}, "UnknownPlanner")],
+)
+def test_what_does_not_fit_the_robot_is_no_stream(make_server, room_files, change, error):
+    client = make_server(progress_seconds=1e-4)
+    map_id = client.post("/maps", files=room_files).json()["id"]
+    request = {"map": map_id, "start": [-1.2, -0.6], "goal": [1.2, -0.6], **change}
+    expect(client.post("/plan/stream", json=request), 400, error)

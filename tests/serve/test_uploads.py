@@ -16,7 +16,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from PIL import Image
 
-from planformer.errors import InvalidMap, PlanformerError
+from planformer.errors import InvalidMap, PlanformerError, TooLarge
 from planformer.maps.io import load_map
 from planformer.serve.uploads import base_name, read_upload
 
@@ -57,7 +57,7 @@ def huge_png(width, height):
 def test_a_decompression_bomb_is_refused_from_its_header(size):
     data = huge_png(*size)
     tracemalloc.start()
-    with pytest.raises(InvalidMap, match=r"pixels|too large|decoded"):
+    with pytest.raises((InvalidMap, TooLarge), match=r"pixels|too large|decoded"):
         read({"bomb.png": data})
     _, peak = tracemalloc.get_traced_memory()
     tracemalloc.stop()
@@ -68,7 +68,7 @@ def test_a_decompression_bomb_is_refused_from_its_header(size):
     "header", [b"P5\n99999 99999\n255\n", b"P2\n99999 99999\n255\n", b"P5\n-1 5\n"]
 )
 def test_a_pgm_that_claims_too_much_is_refused(header):
-    with pytest.raises(InvalidMap):
+    with pytest.raises((InvalidMap, TooLarge)):
         read({"bomb.pgm": header + bytes(100)})
 
 
@@ -177,11 +177,18 @@ def test_too_large_uploads_are_refused_before_they_are_read(make_server):
 
 def test_too_many_cells_are_refused(make_server):
     client = make_server(map_cells=11)
-    expect(client.post("/maps", files={"files": ("a.png", SMALL)}), 400, "InvalidMap")
+    expect(client.post("/maps", files={"files": ("a.png", SMALL)}), 413, "TooLarge")
     expect(client.post("/maps", files={"files": ("a.map", MOVINGAI)}), 413, "TooLarge")
     expect(client.post("/maps/generate", json={"kind": "forest"}), 413, "TooLarge")
     endless = {"kind": "forest", "width": 500.0, "height": 500.0, "resolution": 1e-300}
     expect(client.post("/maps/generate", json=endless), 413, "TooLarge")
+
+
+def test_two_files_of_one_name_are_refused(client):
+    for names in (("a.png", "a.png"), ("x/a.png", "y/a.png")):
+        files = [("files", (name, SMALL)) for name in names]
+        refused = expect(client.post("/maps", files=files), 400, "InvalidMap")
+        assert "same name" in refused["message"]
 
 
 def test_too_much_drawing_is_refused(make_server, room_files):

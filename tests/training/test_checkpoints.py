@@ -11,7 +11,7 @@ pytest.importorskip("torch", reason="training needs PyTorch")
 import torch
 
 from planformer.encoding import QueryKind
-from planformer.errors import InvalidWeights, TrainingDiverged, WeightsMismatch
+from planformer.errors import InvalidParameter, InvalidWeights, TrainingDiverged, WeightsMismatch
 from planformer.models import (
     CompactBody,
     MPTConfig,
@@ -21,6 +21,7 @@ from planformer.models import (
     save_checkpoint,
 )
 from planformer.training import TrainConfig, train
+from planformer.training.folder import claimed
 from planformer.training.sources import JoinedPaths
 
 NETWORK = MPTConfig(CompactBody(width=24, stem=8, blocks=1, heads=1, window=6))
@@ -186,3 +187,17 @@ def test_refuses_a_teacher_that_sees_another_input(run):
     run()
     with pytest.raises(WeightsMismatch, match=r"another input: .*query 'wavefront'"):
         run("pupil", network=replace(NETWORK, query="markers"), teacher=str(run.file))
+
+
+def test_a_folder_takes_one_training_at_a_time(run):
+    with (
+        claimed(run.file.parent),
+        pytest.raises(InvalidParameter, match="another process trains"),
+    ):
+        run()
+
+
+def test_a_folder_that_cannot_be_made_is_told(run, tmp_path):
+    (tmp_path / "file").touch()
+    with pytest.raises(InvalidParameter, match="cannot be made"):
+        run("file/run")

@@ -22,6 +22,7 @@ from planformer.errors import (
 )
 from planformer.models.next_ks import NextNetwork
 from planformer.models.storage import load_next
+from planformer.training.folder import claimed
 from planformer.training.next_ks import exploration, train_next
 from planformer.training.next_ks_config import NextTrainConfig
 from planformer.training.next_ks_samples import _follow, make_lessons, searched_paths
@@ -92,6 +93,11 @@ def test_a_training_that_is_killed_ends_as_one_that_is_not(tmp_path):
     assert names == ["checkpoint.pt", "log.csv"]
 
 
+def test_a_folder_takes_one_training_at_a_time(tmp_path):
+    with claimed(tmp_path), pytest.raises(InvalidParameter, match="another process trains"):
+        train(tmp_path, steps=1)
+
+
 def test_seconds_end_a_training(tmp_path):
     result = train(tmp_path, seconds=0.2, imitation=1.0)
     assert result.finished
@@ -145,13 +151,6 @@ def test_data_that_do_not_fit_are_refused(tmp_path):
 def test_settings_are_checked(settings):
     with pytest.raises(InvalidParameter):
         NextTrainConfig(**settings)
-
-
-def test_settings_survive_json():
-    settings = config(steps=3, imitation=0.25)
-    assert NextTrainConfig.from_dict(settings.to_dict()) == settings
-    with pytest.raises(InvalidParameter, match="colour"):
-        NextTrainConfig.from_dict({"steps": 1, "colour": 2})
 
 
 def test_exploration_falls_after_a_third():

@@ -39,14 +39,13 @@ def test_cosine_falls_from_its_peak_to_a_fiftieth(limit):
         {"steps": 1, "learning_rate": float("nan")},
         {"steps": 1, "recipe": "sgd"},
         {"steps": 1, "workers": -1},
-        {"steps": 1, "lr": 0.1},
         {"steps": 1, "devices": 0},
         {"steps": 1, "devices": 3, "batch_size": 32},
     ],
 )
 def test_refuses(values):
     with pytest.raises(InvalidParameter):
-        TrainConfig.from_dict(values)
+        TrainConfig(**values)
 
 
 @pytest.mark.parametrize("name", ["learning_rate", "weight_decay", "positive_weight"])
@@ -55,11 +54,6 @@ def test_settings_of_the_compact_recipe_are_for_it_alone(name):
         TrainConfig(recipe="paper", steps=1, **{name: 0.5})
     assert name not in TrainConfig(recipe="paper", steps=1).to_dict()
     assert TrainConfig(steps=1, **{name: 0.5}).to_dict()[name] == 0.5
-
-
-def test_settings_survive_a_dictionary():
-    config = TrainConfig(recipe="paper", steps=5, threads=2)
-    assert TrainConfig.from_dict(config.to_dict()) == config
 
 
 def _take(count, **options):

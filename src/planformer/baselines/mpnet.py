@@ -13,6 +13,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
+from numbers import Integral
 from typing import TypeAlias
 
 import numpy as np
@@ -61,8 +62,9 @@ class MPNetPlanner:
 
     def __post_init__(self) -> None:
         for name, least in (("steps", 1), ("replans", 0), ("restarts", 1)):
-            if not getattr(self, name) >= least:
-                raise InvalidParameter(f"{name} must be >= {least}; got {getattr(self, name)}")
+            value = getattr(self, name)
+            if not (isinstance(value, Integral) and int(value) >= least):
+                raise InvalidParameter(f"{name} must be an integer >= {least}; got {value}")
         if not (math.isfinite(self.repair_seconds) and self.repair_seconds >= 0):
             raise InvalidParameter(
                 f"repair_seconds must be finite and >= 0; got {self.repair_seconds}"

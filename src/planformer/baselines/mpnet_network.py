@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from planformer.encoding import NetworkScale, network_map
 from planformer.errors import InvalidParameter, InvalidWeights, WeightsMismatch
 from planformer.planning import Problem
-from planformer.weights import Weights, open_session, read_weights
+from planformer.weights import Weights, changed_at, open_session, read_weights
 
 _INPUTS = {"map", "latent", "current", "goal", "noise"}
 _OUTPUTS = ("encoding", "waypoint")
@@ -100,21 +100,17 @@ class MPNetNetwork:
 def load_mpnet(path: str | Path) -> MPNetNetwork:
     """Load an .onnx file that `planformer.export.mpnet` wrote, with its card.
 
-    A file is loaded once; it is loaded again when it has changed.
+    A file is loaded once; it is loaded again when it or its card has changed.
 
     Raises:
         InvalidWeights: The file is missing, damaged, or not MPNet's.
     """
     path = Path(path)
-    try:
-        modified = path.stat().st_mtime_ns
-    except OSError as error:
-        raise InvalidWeights(f"cannot read the weights {path}: {error}") from error
-    return _load(path, modified)
+    return _load(path, changed_at(path))
 
 
 @lru_cache(maxsize=4)
-def _load(path: Path, modified: int) -> MPNetNetwork:
+def _load(path: Path, changed: tuple[int, int]) -> MPNetNetwork:
     weights = read_weights(path)
     try:
         scale = NetworkScale.from_dict(weights.card["scale"])

@@ -11,6 +11,7 @@ import math
 import time
 from dataclasses import dataclass
 from functools import cached_property
+from numbers import Integral
 from typing import Any
 
 import numpy as np
@@ -66,8 +67,8 @@ class NextPlanner:
     uncertainty: float = 1.0
 
     def __post_init__(self) -> None:
-        if not self.samples >= 1:
-            raise InvalidParameter(f"samples must be >= 1; got {self.samples}")
+        if not (isinstance(self.samples, Integral) and self.samples >= 1):
+            raise InvalidParameter(f"samples must be an integer >= 1; got {self.samples}")
         if not 0.0 <= self.exploration <= 1.0:
             raise InvalidParameter(f"exploration must be between 0 and 1; got {self.exploration}")
         if not (math.isfinite(self.uncertainty) and self.uncertainty >= 0.0):

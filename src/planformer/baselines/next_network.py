@@ -13,7 +13,7 @@ import onnxruntime
 from numpy.typing import NDArray
 
 from planformer.errors import InvalidWeights, WeightsMismatch
-from planformer.weights import Weights, open_session, read_weights
+from planformer.weights import Weights, changed_at, open_session, read_weights
 
 _INPUTS = {"free", "goal", "context", "states"}
 _OUTPUTS = {"plan", "mean", "value"}
@@ -108,21 +108,17 @@ class NextOnnxNetwork:
 def load_next(path: str | Path) -> NextOnnxNetwork:
     """Load an .onnx file that `planformer.export.next_ks` wrote, with its card.
 
-    A file is loaded once; it is loaded again when it has changed.
+    A file is loaded once; it is loaded again when it or its card has changed.
 
     Raises:
         InvalidWeights: The file is missing, damaged, or not NEXT's.
     """
     path = Path(path)
-    try:
-        modified = path.stat().st_mtime_ns
-    except OSError as error:
-        raise InvalidWeights(f"cannot read the weights {path}: {error}") from error
-    return _load(path, modified)
+    return _load(path, changed_at(path))
 
 
 @lru_cache(maxsize=4)
-def _load(path: Path, modified: int) -> NextOnnxNetwork:
+def _load(path: Path, changed: tuple[int, int]) -> NextOnnxNetwork:
     weights = read_weights(path)
     session = open_session(weights)
     names = {value.name for value in session.get_inputs()}

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from planformer.bench.environment import environment
 from planformer.bench.problems import BenchProblem, make_problem
-from planformer.bench.reporting import table_page, write_summary
+from planformer.bench.reporting import prepared_folder, table_page, write_summary
 from planformer.bench.rows import chosen_rows
 from planformer.bench.running import in_rows
 from planformer.guidance import AUTO, resolve_guide
@@ -53,7 +53,9 @@ def run_deadlines(
 
     Raises:
         InvalidParameter: A value is out of range.
+        InvalidResults: The folder cannot take the results.
     """
+    output = prepared_folder(folder)
     lines = []
     for row, indices in in_rows(chosen_rows(ROWS, None), problems, report):
         overruns: dict[tuple[str, float], list[float]] = {}
@@ -62,7 +64,7 @@ def run_deadlines(
                 overruns.setdefault(key, []).append(seconds)
         lines += [_line(row.name, *key, np.array(values)) for key, values in overruns.items()]
     summary = {"sessions": [environment()], "lines": lines}
-    write_summary(folder, summary, markdown(summary))
+    write_summary(output, summary, markdown(summary))
     return summary
 
 

@@ -16,6 +16,7 @@ from planformer.bench.environment import environment
 from planformer.bench.reporting import (
     interval_cell,
     millisecond_cell,
+    prepared_folder,
     table_page,
     write_summary,
 )
@@ -75,23 +76,25 @@ def run_growth(
 
     Raises:
         InvalidParameter: A value is out of range.
+        InvalidResults: The folder cannot take the results.
     """
     if problems < 1:
         raise InvalidParameter(f"problems must be >= 1; got {problems}")
     if not sizes or min(sizes) < 100:
         raise InvalidParameter(f"sizes must be >= 100 cells, at least one; got {tuple(sizes)}")
+    output = prepared_folder(folder)
     lines: list[dict[str, Any]] = []
     # In a process of its own: memory that is counted is that of these plans.
     with closing(work_through(sizes, partial(_measure, problems, seed), 1)) as measured:
         for number, (size, result) in enumerate(measured):
             if isinstance(result, Died):
-                raise RuntimeError(f"the process died at {size} cells, code {result.exit_code}")
+                raise RuntimeError(f"{result.cause} at {size} cells")
             lines += result
             if report:
                 report((number + 1) * problems, len(sizes) * problems)
     summary = {"sessions": [environment()], "lines": lines}
-    write_summary(folder, summary, markdown(summary))
-    save_picture(plot(summary), Path(folder) / "growth.png")
+    write_summary(output, summary, markdown(summary))
+    save_picture(plot(summary), output / "growth.png")
     return summary
 
 

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from planformer.bench.environment import environment
 from planformer.bench.reporting import (
     millisecond_cell,
+    prepared_folder,
     table_page,
     write_summary,
 )
@@ -62,14 +63,16 @@ def run_latency(
 
     Raises:
         InvalidParameter: A value is out of range.
+        InvalidResults: The folder cannot take the results.
     """
+    output = prepared_folder(folder)
     lines = []
     for row, indices in in_rows(chosen_rows(ROWS, None), problems, report):
         network = load_network("mpt" if row.plane else "mpt-dubins")
         times = [_measure(*_problems(row, index, seed), network) for index in indices]
         lines.append(_line(row, network, times))
     summary = {"sessions": [environment()], "lines": lines}
-    write_summary(folder, summary, markdown(summary))
+    write_summary(output, summary, markdown(summary))
     return summary
 
 

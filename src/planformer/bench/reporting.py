@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import gzip
 import json
+import os
 import zlib
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from planformer.bench.records import from_csv, to_csv
-from planformer.bench.store import Record, ResultFolder, write_text
+from planformer.bench.store import MANIFEST, Record, ResultFolder, write_text
 from planformer.errors import InvalidResults
 from planformer.files import whole_file
 
@@ -30,10 +31,26 @@ def write_files(
         file.write(gzip.compress(to_csv(records, results.kind).encode(), mtime=0))
 
 
-def write_summary(folder: str | Path, summary: Mapping[str, Any], table: str) -> None:
-    """Write summary.json and table.md into a folder, which is made if it is missing."""
+def prepared_folder(folder: str | Path) -> Path:
+    """A folder for results that come all at once, so that what is wrong with it shows first.
+
+    Raises:
+        InvalidResults: It cannot be made or written to, or holds results of a table.
+    """
     folder = Path(folder)
-    folder.mkdir(parents=True, exist_ok=True)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InvalidResults(f"{folder} cannot be made: {error.strerror or error}") from error
+    if not os.access(folder, os.W_OK):
+        raise InvalidResults(f"{folder} cannot be written to; choose another folder")
+    if (folder / MANIFEST).exists() or (folder / PROBLEMS).exists():
+        raise InvalidResults(f"{folder} holds results of another benchmark; choose another folder")
+    return folder
+
+
+def write_summary(folder: Path, summary: Mapping[str, Any], table: str) -> None:
+    """Write summary.json and table.md into a folder."""
     write_text(folder / SUMMARY, json.dumps(summary, indent=2, allow_nan=False) + "\n")
     write_text(folder / TABLE, table)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -12,6 +13,7 @@ from typing import Protocol
 from planformer.data.recipe import GENERATORS
 from planformer.errors import InvalidParameter
 from planformer.maps import OccupancyGrid, load_map
+from planformer.maps.folder import picture_of
 from planformer.robots import DubinsCar, PointRobot, Robot
 
 REAL = "real"
@@ -148,6 +150,16 @@ def chosen_rows(names: Sequence[str] | None, real_maps: Path | None = None) -> t
             + ("" if real_maps else "; the rows on real maps need the folder of the maps")
         )
     return tuple(rows[name] for name in dict.fromkeys(names or rows))
+
+
+def map_fingerprints(rows: Iterable[Row]) -> dict[str, str]:
+    """The SHA-256 of the files that rows on real maps read, by name; a map's picture counts."""
+    scenes = [scene for row in rows for scene in row.scenes]
+    maps = {scene.maps.path for scene in scenes if isinstance(scene.maps, MapFile)}
+    scenarios = {scene.scenarios for scene in scenes if scene.scenarios is not None}
+    pictures = {picture for path in maps if (picture := picture_of(path)) is not None}
+    files = sorted(maps | scenarios | pictures)
+    return {file.name: hashlib.sha256(file.read_bytes()).hexdigest() for file in files}
 
 
 def _generated_rows() -> tuple[Row, ...]:

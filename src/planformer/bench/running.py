@@ -61,7 +61,7 @@ def complete(
         rows: The rows.
         problems: Number of problems in each.
         measure: Gives the records of a problem; a function of a module, or a partial of one.
-        lost: Gives the records of a problem whose process died, with the cause.
+        lost: Gives the records of a problem whose process died of a cause.
         workers: Number of processes.
         report: Called with the number of problems measured and their total.
 
@@ -83,7 +83,7 @@ def complete(
             results.begin(environment())
         for job, outcome in finished:
             key = (job[0].name, job[1])
-            measured[key] = lost(job, _cause(outcome)) if isinstance(outcome, Died) else outcome
+            measured[key] = lost(job, outcome.cause) if isinstance(outcome, Died) else outcome
             part = waiting[key]
             keys = [(part.row, problem) for problem in part.problems]
             if all(key in measured for key in keys):
@@ -92,7 +92,3 @@ def complete(
             if report:
                 report(done, total)
     return [record for part in wanted for record in results.read(part)]
-
-
-def _cause(died: Died) -> str:
-    return f"the process died with exit code {died.exit_code}"

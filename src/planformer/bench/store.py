@@ -15,7 +15,7 @@ from typing import Any, Generic, Protocol, TypeVar
 
 from planformer.bench.records import from_csv, to_csv
 from planformer.errors import InvalidResults
-from planformer.files import locked, whole_file
+from planformer.files import locked, remove_unfinished, whole_file
 
 MANIFEST = "bench.json"
 FORMAT = 2
@@ -108,6 +108,8 @@ class ResultFolder(Generic[Record]):
         """
         self.path.mkdir(parents=True, exist_ok=True)
         with locked(self.path, InvalidResults(f"another process measures into {self.path}")):
+            remove_unfinished(self.path)
+            remove_unfinished(self._parts)
             yield
 
     @property
@@ -150,7 +152,8 @@ class ResultFolder(Generic[Record]):
     def _earlier_sessions(self) -> list[dict[str, Any]]:
         path = self.path / MANIFEST
         if not path.exists():
-            if self.path.exists() and any(self.path.iterdir()):
+            unfinished = set(self.path.glob(f".{MANIFEST}.*.tmp"))
+            if self.path.exists() and set(self.path.iterdir()) - unfinished:
                 raise InvalidResults(
                     f"{self.path} is neither empty nor of a benchmark; choose another folder"
                 )

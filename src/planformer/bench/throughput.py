@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planformer.bench.environment import environment
-from planformer.bench.reporting import interval_cell, table_page, write_summary
+from planformer.bench.reporting import interval_cell, prepared_folder, table_page, write_summary
 from planformer.bench.statistics import interval_of
 from planformer.data.problems import random_problems
 from planformer.errors import InvalidParameter
@@ -52,9 +52,11 @@ def run_throughput(
 
     Raises:
         InvalidParameter: A value is out of range.
+        InvalidResults: The folder cannot take the results.
     """
     if problems < 1:
         raise InvalidParameter(f"problems must be >= 1; got {problems}")
+    output = prepared_folder(folder)
     cases = list(product(("known", "new"), sorted({1, cores()}), TASKS))
     counts = [QUERIES_PER_MAP] * (problems // QUERIES_PER_MAP) + [problems % QUERIES_PER_MAP]
     batches = [_batch(seed, index, count) for index, count in enumerate(counts) if count]
@@ -76,7 +78,7 @@ def run_throughput(
         if report:
             report(number + 1, len(cases))
     summary = {"sessions": [environment()], "lines": lines}
-    write_summary(folder, summary, markdown(summary))
+    write_summary(output, summary, markdown(summary))
     return summary
 
 

@@ -28,6 +28,11 @@ class Died:
 
     exit_code: int | None
 
+    @property
+    def cause(self) -> str:
+        """What happened, in words."""
+        return f"the process died with exit code {self.exit_code}"
+
 
 def work_through(
     jobs: Iterable[Job], work: Callable[[Job], Result], workers: int

@@ -12,7 +12,7 @@ import typer
 
 from planformer.cli.console import print_json, stderr, stdout
 
-bench_app = typer.Typer(no_args_is_help=True, help="Measure guides; results can be completed.")
+bench_app = typer.Typer(no_args_is_help=True, help="Measure guides and planners.")
 
 
 @bench_app.command("accuracy")
@@ -155,7 +155,7 @@ def _table_command(tables: Sequence[str]) -> Callable[..., None]:
             bool, typer.Option("--json", help="Print the summaries as JSON and nothing else.")
         ] = False,
     ) -> None:
-        from planformer.bench.tables import TableSettings, run_table
+        from planformer.bench.tables import TableSettings, run_table, table_rows
         from planformer.processes import cores
 
         settings = TableSettings(
@@ -171,14 +171,18 @@ def _table_command(tables: Sequence[str]) -> Callable[..., None]:
             if table == "table5" and real_maps is None and len(tables) > 1:
                 stderr.print("table5 is left out: it needs --real-maps", soft_wrap=True)
                 continue
+            maps = real_maps if table == "table5" else None
+            if len(tables) > 1 and not any(map(settings.systems_of, table_rows(table, maps))):
+                stderr.print(f"{table} is left out: it has none of the systems", soft_wrap=True)
+                continue
             with _progress_bar() as show:
                 summaries[table] = run_table(
                     output / table,
                     table,
                     problems=problems,
                     settings=settings,
-                    real_maps=real_maps if table == "table5" else None,
-                    workers=workers or cores(),
+                    real_maps=maps,
+                    workers=cores() if workers is None else workers,
                     report=show,
                 )
             if not as_json:

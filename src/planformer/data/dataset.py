@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from planformer.data.arcs import driven_poses
 from planformer.data.inflation import inflate
-from planformer.data.recipe import AnyMap, MapRecipe, StoredMap, checksum
+from planformer.data.recipe import AnyMap, MapRecipe, StoredMap, checksum, map_seeds
 from planformer.data.shards import Shard, read_shard
 from planformer.data.spec import DatasetSpec, read_spec
 from planformer.errors import InvalidDataset
@@ -141,25 +141,27 @@ def _read_fitting(path: Path, spec: DatasetSpec, kind: str, indices: range) -> S
     ):
         if found != expected:
             raise InvalidDataset(
-                f"the shard {path} is of another data set: {what} {found}; expected {expected}"
+                f"the shard {path} is of another data set: {what} {found!r:.200}; expected "
+                f"{expected!r:.200}"
             )
     return shard
 
 
-def _identities(shard: Shard) -> set[tuple[object, ...]]:
-    """What the settings say about the maps: sizes of generated ones, names of users' own."""
-    return {
-        (recipe.width, recipe.height, recipe.resolution)
+def _identities(shard: Shard) -> list[tuple[object, ...]]:
+    """What the settings say of the maps: how generated ones are made, names of users' own."""
+    return [
+        (recipe.seed, recipe.width, recipe.height, recipe.resolution)
         if isinstance(recipe, MapRecipe)
         else (recipe.name, int(check))
         for recipe, check in zip(shard.recipes, shard.checksums, strict=True)
-    }
+    ]
 
 
-def _expected_identities(spec: DatasetSpec, kind: str, indices: range) -> set[tuple[object, ...]]:
+def _expected_identities(spec: DatasetSpec, kind: str, indices: range) -> list[tuple[object, ...]]:
     if kind == StoredMap.kind:
-        return set(spec.user_maps[indices.start : indices.stop])
-    return {(spec.width, spec.height, spec.resolution)}
+        return list(spec.user_maps[indices.start : indices.stop])
+    size = (spec.width, spec.height, spec.resolution)
+    return [(map_seeds(spec.seed, kind, number)[0], *size) for number in indices]
 
 
 def _joined(indices: list[NDArray[np.int64]], counts: list[int]) -> NDArray[np.int64]:

@@ -3,13 +3,12 @@
 A data set is a folder with its settings in ``dataset.json`` (see `planformer.data.spec`) and its
 maps and paths in shards, ``forest-00000.parquet`` and so on (see `planformer.data.shards`).
 
-Map number i of a kind draws from ``SeedSequence(seed, spawn_key=(crc32(kind), i))``, so what a
-shard holds depends neither on the number of workers, nor on which other shards are made.
+What a shard holds depends neither on the number of workers, nor on which other shards are made: map
+number i of a kind has seeds of its own (`planformer.data.recipe.map_seeds`).
 """
 
 from __future__ import annotations
 
-import zlib
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import closing
 from itertools import islice
@@ -25,7 +24,14 @@ from planformer.data.arcs import arc_ends, driven_poses
 from planformer.data.folder import claimed, writing
 from planformer.data.parallel import solved_in_order
 from planformer.data.problems import random_problems
-from planformer.data.recipe import USER_KIND, AnyMap, MapRecipe, StoredMap, checksum
+from planformer.data.recipe import (
+    USER_KIND,
+    AnyMap,
+    MapRecipe,
+    StoredMap,
+    checksum,
+    map_seeds,
+)
 from planformer.data.settings import make_expert, settled
 from planformer.data.shards import MapPaths, Shard, write_shard
 from planformer.data.spec import DatasetSpec
@@ -130,8 +136,7 @@ def _jobs(spec: DatasetSpec, own: Sequence[StoredMap], shards: Sequence[str]) ->
 def _solve_map(job: _MapJob) -> MapPaths:
     """Make a map, draw its problems and solve them."""
     spec, kind, number, own = job
-    seeds = np.random.SeedSequence(spec.seed, spawn_key=(zlib.crc32(kind.encode()), number))
-    map_seed, problem_seed, expert_seed = (int(s) for s in seeds.generate_state(3, np.uint64))
+    map_seed, problem_seed, expert_seed = map_seeds(spec.seed, kind, number)
     recipe = own or MapRecipe(kind, map_seed, spec.width, spec.height, spec.resolution)
     try:
         return _paths_on(recipe, spec, problem_seed, expert_seed)

@@ -120,6 +120,19 @@ class StoredMap:
         return OccupancyGrid(cells.reshape(self.shape).view(np.bool_), self.resolution)
 
 
+def map_seeds(seed: int, kind: str, number: int) -> tuple[int, int, int]:
+    """The seeds of map number `number` of a kind: of the map, its problems and their expert.
+
+    Args:
+        seed: Seed of the data set.
+        kind: The kind of map.
+        number: The map's number among those of its kind.
+    """
+    sequence = np.random.SeedSequence(seed, spawn_key=(zlib.crc32(kind.encode()), number))
+    of_map, of_problems, of_expert = (int(s) for s in sequence.generate_state(3, np.uint64))
+    return of_map, of_problems, of_expert
+
+
 AnyMap: TypeAlias = MapRecipe | StoredMap
 
 

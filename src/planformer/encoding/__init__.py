@@ -9,7 +9,7 @@ from planformer.encoding.anchors import (
     region_mask,
 )
 from planformer.encoding.query import encode_query, encode_windows
-from planformer.encoding.raster import network_map
+from planformer.encoding.raster import network_map, network_shape
 from planformer.encoding.scale import NetworkScale, QueryKind
 from planformer.encoding.window import Window, stitch
 
@@ -25,6 +25,7 @@ __all__ = [
     "encode_query",
     "encode_windows",
     "network_map",
+    "network_shape",
     "region_mask",
     "stitch",
 ]

@@ -9,9 +9,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from planformer.encoding.scale import NetworkScale, QueryKind
 from planformer.errors import InvalidMap, InvalidParameter
+from planformer.maps.resample import any_overlapped, resampled_size
 
-_EDGE_TOLERANCE = 1e-6
-"""In cells: 0.1 / 0.05 is meant to be two."""
+_SAME_RATIO = 1e-6
+"""Cells that are a pixel but for this are not resampled."""
 
 _MOST_PIXELS, _MOST_PIXELS_AT_ONCE = 2**26, 2**22
 """Networks that are shown waves see windows of the map, others all of it at once, and attention
@@ -45,9 +46,16 @@ def network_map(blocked: ArrayLike, resolution: float, scale: NetworkScale) -> N
         raise InvalidParameter(f"resolution must be finite and > 0 m; got {resolution}")
     ratio = scale.resolution / resolution
     _check_size(cells.shape, ratio, scale)
-    if abs(ratio - 1.0) > _EDGE_TOLERANCE:
-        cells = _any_overlapped(_any_overlapped(cells, ratio).T, ratio).T
+    if abs(ratio - 1.0) > _SAME_RATIO:
+        cells = any_overlapped(cells, ratio, outside=False)
     return _pad(cells, scale)
+
+
+def network_shape(shape: tuple[int, ...], resolution: float, scale: NetworkScale) -> list[int]:
+    """Rows and columns of `network_map` of a map of (H, W) cells."""
+    ratio = scale.resolution / resolution
+    same = abs(ratio - 1.0) <= _SAME_RATIO
+    return [scale.padded(size if same else resampled_size(size, ratio)) for size in shape]
 
 
 def _check_size(shape: tuple[int, ...], ratio: float, scale: NetworkScale) -> None:
@@ -59,18 +67,6 @@ def _check_size(shape: tuple[int, ...], ratio: float, scale: NetworkScale) -> No
             f"a map of {height:.0f} x {width:.0f} pixels of {scale.resolution:g} m is too large "
             f"for this network, which takes {most:,}; plan without a guide, or in a part of the map"
         )
-
-
-def _any_overlapped(cells: NDArray[np.bool_], ratio: float) -> NDArray[np.bool_]:
-    """Along axis 0: any over the cells that each pixel, `ratio` cells wide, overlaps."""
-    size = cells.shape[0]
-    edges = np.arange(max(1, math.ceil(size / ratio - _EDGE_TOLERANCE)) + 1) * ratio
-    first = np.floor(edges[:-1] + _EDGE_TOLERANCE).astype(np.intp)
-    end = np.minimum(np.ceil(edges[1:] - _EDGE_TOLERANCE), size).astype(np.intp)
-    sums = np.zeros((size + 1, cells.shape[1]), np.int32)
-    np.cumsum(cells, axis=0, out=sums[1:])
-    overlapped: NDArray[np.bool_] = sums[end] > sums[first]
-    return overlapped
 
 
 def _pad(cells: NDArray[np.bool_], scale: NetworkScale) -> NDArray[np.uint8]:

@@ -17,7 +17,8 @@ from planformer.errors import InvalidParameter, InvalidWeights, WeightsMismatch
 from planformer.guidance.region import Region, make_region
 from planformer.guidance.weights import scale_of, weights_path
 from planformer.planning import Problem
-from planformer.weights import Weights, open_session, read_weights
+from planformer.robots import Robot
+from planformer.weights import Weights, changed_at, open_session, read_weights
 
 _CONCENTRATIONS = (0.3, 100.0)
 """Bounds of the concentration: yaw deviations from 0.1 rad to nearly any yaw."""
@@ -54,6 +55,18 @@ class OnnxNetwork:
     scale: NetworkScale
     session: onnxruntime.InferenceSession
 
+    def require_fit(self, robot: Robot) -> None:
+        """Check that the network proposes regions for a robot.
+
+        Raises:
+            WeightsMismatch: It does not.
+        """
+        if self.scale.headings and robot.state_dimension == 2:
+            raise WeightsMismatch(
+                f"the weights {self.weights.name} need start and goal headings, which a "
+                f"{type(robot).__name__} does not have; use weights for a point robot"
+            )
+
     def predict(self, problem: Problem) -> Prediction:
         """Evaluate the network.
 
@@ -61,12 +74,8 @@ class OnnxNetwork:
             WeightsMismatch: The network does not fit the robot or its card.
             InvalidWeights: It predicts values that are not finite.
         """
+        self.require_fit(problem.robot)
         scale = self.scale
-        if scale.headings and problem.robot.state_dimension == 2:
-            raise WeightsMismatch(
-                f"the weights {self.weights.name} need start and goal headings, which a "
-                f"{type(problem.robot).__name__} does not have; use weights for a point robot"
-            )
         outputs = self._outputs(problem)
         prediction = Prediction(outputs.pop(0)[0])
         if scale.headings:
@@ -165,17 +174,17 @@ class OnnxProposer:
 def load_network(guide: str) -> OnnxNetwork:
     """Load shipped weights by name, or an .onnx file with its card by path.
 
-    A file is loaded once; it is loaded again when it has changed.
+    A file is loaded once; it is loaded again when it or its card has changed.
 
     Raises:
         UnknownGuide: No such weights.
         InvalidWeights: The file is damaged or does not fit its card.
     """
     path = weights_path(guide)
-    return _load(path, path.stat().st_mtime_ns)
+    return _load(path, changed_at(path))
 
 
 @lru_cache(maxsize=8)
-def _load(path: Path, modified: int) -> OnnxNetwork:
+def _load(path: Path, changed: tuple[int, int]) -> OnnxNetwork:
     weights = read_weights(path)
     return OnnxNetwork(weights, scale_of(weights), open_session(weights))

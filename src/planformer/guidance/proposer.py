@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Protocol, runtime_checkable
+import os
+from typing import Protocol, TypeAlias, runtime_checkable
 
 from planformer.errors import InvalidParameter, UnknownGuide
 from planformer.guidance.onnx import OnnxProposer, load_network
@@ -24,9 +25,11 @@ class RegionProposer(Protocol):
         ...
 
 
-def resolve_guide(
-    guide: str | RegionProposer, robot: Robot, threshold: float | None = None
-) -> RegionProposer:
+Guide: TypeAlias = str | os.PathLike[str] | RegionProposer
+"""What `resolve_guide` takes."""
+
+
+def resolve_guide(guide: Guide, robot: Robot, threshold: float | None = None) -> RegionProposer:
     """Turn the name of shipped weights or the path of an .onnx file into a proposer.
 
     Args:
@@ -38,14 +41,14 @@ def resolve_guide(
         UnknownGuide: The name is unknown, or the object cannot propose regions.
         InvalidParameter: A threshold is out of range, or given for an object that has its own.
     """
+    if isinstance(guide, os.PathLike):
+        guide = os.fspath(guide)
     if guide == AUTO:
         guide = default_guide(robot)
     if isinstance(guide, str):
         return OnnxProposer(load_network(guide), threshold)
-    if not isinstance(guide, RegionProposer):
-        raise UnknownGuide(
-            f"guide must be a name, a RegionProposer or None; got {type(guide).__name__}"
-        )
+    if not isinstance(guide, RegionProposer) or isinstance(guide, type):
+        raise UnknownGuide(f"guide must be a name, a path or a RegionProposer; got {guide!r:.80}")
     if threshold is not None:
         raise InvalidParameter(
             f"a threshold needs the name of weights as guide; set it in the {type(guide).__name__}"

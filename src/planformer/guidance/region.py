@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from planformer import _core
-from planformer.encoding import NetworkScale, anchor_points
+from planformer.encoding import NetworkScale, anchor_points, network_shape
 from planformer.errors import InvalidParameter
 from planformer.geometry import Frame
 from planformer.maps import OccupancyGrid
@@ -106,7 +107,7 @@ def make_region(
 
     Args:
         problem: The problem that the probabilities were predicted for.
-        probability: (h, w) probability of each anchor.
+        probability: (h, w) probability of each anchor, one for each stride of the `network_map`.
         scale: Scale of the network that predicted them.
         headings: (h, w) headings in rad in the map's own frame, None in the plane.
         yaw_deviations: (h, w) standard deviation of the yaw round them in rad, None for 0.35.
@@ -120,6 +121,8 @@ def make_region(
             is outside [0, 1].
     """
     probability = _checked_probability(probability)
+    pixels = network_shape(problem.grid.shape, problem.grid.resolution, scale)
+    _check_shape("probability", probability, tuple(size // scale.stride for size in pixels))
     _check_shape("headings", headings, probability.shape)
     _check_shape("yaw_deviations", yaw_deviations, probability.shape)
     _check_shape("offsets", offsets, (*probability.shape, 2))
@@ -157,7 +160,7 @@ def _within_patch(
     return Frame(yaw=frame.yaw).to_world(np.clip(offsets, -reach, reach))
 
 
-def _check_shape(name: str, values: NDArray[np.float64] | None, shape: tuple[int, ...]) -> None:
+def _check_shape(name: str, values: NDArray[Any] | None, shape: tuple[int, ...]) -> None:
     if values is not None and values.shape != shape:
         raise InvalidParameter(f"{name} must have the shape {shape}; got {values.shape}")
 

@@ -38,12 +38,19 @@ def weights_path(guide: str) -> Path:
         UnknownGuide: No shipped weights have the name and no such file exists.
     """
     path = Path(guide) if guide.endswith(".onnx") else SHIPPED / f"{ALIASES.get(guide, guide)}.onnx"
-    if ("/" in guide and not guide.endswith(".onnx")) or not path.is_file():
+    if ("/" in guide and not guide.endswith(".onnx")) or not _is_file(path):
         raise UnknownGuide(
             f"unknown guide {guide!r}; valid: {', '.join(guide_names())}, the path of an existing "
             ".onnx file, or None"
         )
     return path
+
+
+def _is_file(path: Path) -> bool:
+    try:
+        return path.is_file()
+    except OSError:  # too long a name, or in a folder that is another user's
+        return False
 
 
 def scale_of(weights: Weights) -> NetworkScale:

@@ -12,6 +12,8 @@ from planformer.errors import InvalidMap, InvalidParameter
 
 _MOST_CELLS = 2**31 - 1
 """The core numbers the cells, and those of a ring round them, with 32 bits."""
+_SMALLEST_CELL, _LARGEST_CELL = 1e-6, 1e6
+"""Side of a cell in metres; distances on the map fit into float32 by far."""
 
 
 def as_mask(values: ArrayLike, name: str) -> NDArray[np.bool_]:
@@ -38,14 +40,16 @@ def checked_resolution(resolution: float) -> float:
     """The resolution as a float.
 
     Raises:
-        InvalidMap: It is not a finite positive number.
+        InvalidMap: It is no number, or one that no map has.
     """
     try:
         value = float(resolution)
-    except (TypeError, ValueError):
+    except (OverflowError, TypeError, ValueError):
         raise InvalidMap(f"resolution must be a number of metres; got {resolution!r}") from None
-    if not (math.isfinite(value) and value > 0):
-        raise InvalidMap(f"resolution must be finite and > 0 m; got {resolution}")
+    if not _SMALLEST_CELL <= value <= _LARGEST_CELL:  # also NaN
+        raise InvalidMap(
+            f"resolution must be between {_SMALLEST_CELL:g} and {_LARGEST_CELL:g} m; got {value:g}"
+        )
     return value
 
 
@@ -57,7 +61,7 @@ def checked_origin(origin: Sequence[float]) -> tuple[float, float, float]:
     """
     try:
         values = [float(v) for v in origin]
-    except (TypeError, ValueError):
+    except (OverflowError, TypeError, ValueError):
         values = []
     if len(values) not in (2, 3) or not all(map(math.isfinite, values)):
         raise InvalidMap(f"origin must be (x, y) or (x, y, yaw), all finite; got {origin!r}")

@@ -59,7 +59,7 @@ class OccupancyGrid:
 
     Args:
         occupied: (H, W) array of bool or of 0 and 1.
-        resolution: Side of a cell in metres, finite and positive.
+        resolution: Side of a cell in metres, 1e-6 to 1e6.
         origin: (x, y) or (x, y, yaw) in metres and rad.
         unknown: Optional (H, W) mask of cells never observed; none by default.
 
@@ -303,7 +303,7 @@ class OccupancyGrid:
             The new map; it covers the old one and less than one new cell more on the far sides.
 
         Raises:
-            InvalidMap: The resolution is not finite and positive.
+            InvalidMap: The resolution is not between 1e-6 and 1e6 m.
         """
         ratio = checked_resolution(resolution) / self.resolution
         if ratio == 1.0:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from planformer.errors import InvalidMap
+from planformer.errors import InvalidMap, TooLarge
 from planformer.maps._files import PathLike, naming, read_bytes
 from planformer.maps.grid import OccupancyGrid
 
@@ -60,7 +60,8 @@ def decode_picture(
         most_pixels: A larger picture is refused from its header, before it takes memory.
 
     Raises:
-        InvalidMap: The data is damaged, truncated, no picture, or the picture too large.
+        InvalidMap: The data is damaged, truncated or no picture.
+        TooLarge: The picture has more pixels.
     """
     from PIL import Image
 
@@ -71,13 +72,15 @@ def decode_picture(
             warnings.simplefilter("ignore", UserWarning)  # odd metadata of a good picture
             with Image.open(io.BytesIO(data), formats=formats) as image:
                 if image.width * image.height > most_pixels:
-                    raise ValueError(
-                        f"{image.width} x {image.height} pixels are more than {most_pixels:g}"
+                    raise TooLarge(
+                        f"{image.width} x {image.height} pixels are more than the "
+                        f"{most_pixels:,} that a map may have here"
                     )
                 image.load()
                 return _decode(image)
     except Image.DecompressionBombError as error:  # from 179 million pixels on
-        raise InvalidMap(f"the image is too large: {error}") from error
+        kind = InvalidMap if math.isinf(most_pixels) else TooLarge
+        raise kind(f"the image is too large: {error}") from error
     except (OSError, ValueError, SyntaxError, EOFError, IndexError, struct.error, zlib.error) as e:
         reason = "not an image that Pillow can read" if "cannot identify" in str(e) else e
         raise InvalidMap(f"the image cannot be decoded: {reason}") from e

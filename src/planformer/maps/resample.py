@@ -27,15 +27,24 @@ def resample_masks(
     """
     if ratio <= 1.0:
         return _finer(occupied, ratio), _finer(unknown, ratio)
-    seen_occupied = _coarser(occupied & ~unknown, ratio, outside=False)
+    seen_occupied = any_overlapped(occupied & ~unknown, ratio, outside=False)
     return (
-        _coarser(occupied, ratio, outside=True),
-        _coarser(unknown, ratio, outside=False) & ~seen_occupied,
+        any_overlapped(occupied, ratio, outside=True),
+        any_overlapped(unknown, ratio, outside=False) & ~seen_occupied,
     )
 
 
-def _coarser(mask: NDArray[np.bool_], ratio: float, outside: bool) -> NDArray[np.bool_]:
-    """Any over the cells that each new cell overlaps, one axis after the other."""
+def any_overlapped(mask: NDArray[np.bool_], ratio: float, *, outside: bool) -> NDArray[np.bool_]:
+    """Any over the cells that each new cell overlaps.
+
+    Args:
+        mask: (H, W) bool.
+        ratio: Side of a new cell over the side of an old one, > 0.
+        outside: What holds beside the map.
+
+    Returns:
+        (H', W') bool, see `resampled_size`.
+    """
     for _ in range(2):
         mask = _any_along_rows(mask, ratio, outside).T
     return mask
@@ -43,12 +52,12 @@ def _coarser(mask: NDArray[np.bool_], ratio: float, outside: bool) -> NDArray[np
 
 def _any_along_rows(mask: NDArray[np.bool_], ratio: float, outside: bool) -> NDArray[np.bool_]:
     size, columns = mask.shape
-    edges = np.arange(_count(size, ratio) + 1) * ratio
+    edges = np.arange(resampled_size(size, ratio) + 1) * ratio
     first = np.floor(edges[:-1] + _EDGE_TOLERANCE).astype(np.intp)
-    end = np.ceil(edges[1:] - _EDGE_TOLERANCE).astype(np.intp)
+    end = np.ceil(edges[1:] - _EDGE_TOLERANCE)
     sums = np.zeros((size + 1, columns), np.int32)
     np.cumsum(mask, axis=0, out=sums[1:])
-    result: NDArray[np.bool_] = sums[np.minimum(end, size)] > sums[first]
+    result: NDArray[np.bool_] = sums[np.minimum(end, size).astype(np.intp)] > sums[first]
     if outside and end[-1] > size:
         result[-1] = True
     return result
@@ -57,12 +66,12 @@ def _any_along_rows(mask: NDArray[np.bool_], ratio: float, outside: bool) -> NDA
 def _finer(mask: NDArray[np.bool_], ratio: float) -> NDArray[np.bool_]:
     """The nearest old cell for each new one; the last may have its centre beyond the map."""
     rows, columns = (
-        np.minimum(((np.arange(_count(size, ratio)) + 0.5) * ratio).astype(np.intp), size - 1)
-        for size in mask.shape
+        np.minimum(((np.arange(count) + 0.5) * ratio).astype(np.intp), size - 1)
+        for size, count in ((size, resampled_size(size, ratio)) for size in mask.shape)
     )
     return mask[np.ix_(rows, columns)]
 
 
-def _count(size: int, ratio: float) -> int:
-    """New cells needed to cover `size` old ones."""
+def resampled_size(size: int, ratio: float) -> int:
+    """New cells needed to cover `size` old ones along a side."""
     return max(1, math.ceil(size / ratio - _EDGE_TOLERANCE))

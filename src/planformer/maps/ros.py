@@ -19,6 +19,8 @@ from planformer.maps.image import Picture, read_picture
 
 _DEEPEST = 8
 """Collections within each other in a map file; its own are two."""
+_LONGEST = 2000
+"""Characters of a value in a map file; Python prints no integer of more than twice as many."""
 MODES = ("trinary", "scale", "raw")
 _REQUIRED = ("image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh")
 
@@ -154,18 +156,25 @@ def read_description(data: bytes) -> Mapping[Any, Any]:
     try:
         is_plain = _is_plain(data)
         content = yaml.safe_load(data) if is_plain else None
-    except (yaml.YAMLError, ValueError, LookupError, AttributeError, RecursionError) as error:
-        # PyYAML lets errors of its conversions through: "!!bool x", "!!int ''", "!!timestamp x".
+    except (
+        yaml.YAMLError,
+        ArithmeticError,
+        AttributeError,
+        LookupError,
+        RecursionError,
+        ValueError,
+    ) as error:
+        # PyYAML lets errors of its conversions through: "!!bool x", "!!int ''", a huge "1:0:0.5".
         raise InvalidMap(f"not valid YAML: {' '.join(str(error).split())}") from error
     if not is_plain:
-        raise InvalidMap("a map file has no use for YAML aliases and deep nesting")
+        raise InvalidMap("a map file has no use for YAML aliases, deep nesting and long values")
     if not isinstance(content, Mapping):
         raise InvalidMap(f"a map file must be a YAML mapping; got {type(content).__name__}")
     return content
 
 
 def _is_plain(data: bytes) -> bool:
-    """Whether YAML has neither aliases nor deep nesting.
+    """Whether YAML has neither aliases nor deep nesting nor long values.
 
     Aliases make a small file stand for a huge value, and time grows with the square of the depth.
     """
@@ -175,7 +184,8 @@ def _is_plain(data: bytes) -> bool:
     for event in yaml.parse(data, yaml.SafeLoader):
         depth += isinstance(event, yaml.CollectionStartEvent)
         depth -= isinstance(event, yaml.CollectionEndEvent)
-        if depth > _DEEPEST or isinstance(event, yaml.AliasEvent):
+        is_long = isinstance(event, yaml.ScalarEvent) and len(event.value) > _LONGEST
+        if depth > _DEEPEST or is_long or isinstance(event, yaml.AliasEvent):
             return False
     return True
 

@@ -12,7 +12,9 @@ from planformer.robots import DubinsCar, Robot
 def edge_lines(
     robot: Robot, vertices: NDArray[np.float64], edges: NDArray[np.int64]
 ) -> list[NDArray[np.float64]]:
-    """Lines along the edges: straight for a point robot, along its curves for a car.
+    """Lines along the edges: straight for a point robot, along its shortest curves for a car.
+
+    SST's edges are single arcs of any curvature, for which the shortest curves stand in.
 
     Args:
         robot: The robot.

@@ -80,9 +80,12 @@ class Problem:
 
 def _checked_state(state: Sequence[float], name: str, robot: Robot) -> State:
     try:
-        values = tuple(float(value) for value in state)
+        array = np.asarray(tuple(state))
     except (TypeError, ValueError) as error:
         raise InvalidProblem(f"{name} must be a sequence of numbers; got {state!r}") from error
+    if array.ndim != 1 or array.dtype.kind not in "iuf":  # also strings of digits
+        raise InvalidProblem(f"{name} must be a sequence of numbers; got {state!r}")
+    values = tuple(array.astype(np.float64).tolist())
     if len(values) != robot.state_dimension:
         expected = "(x, y)" if robot.state_dimension == 2 else "(x, y, yaw)"
         raise InvalidProblem(

@@ -66,8 +66,8 @@ class PlanResult:
         planning_seconds: Wall-clock seconds of the search, its setup and the path's check included.
         proposal_seconds: Wall-clock seconds of the region proposal, 0 without a guide; with the
             loading of one given by name, which happens once.
-        region: The proposed region (a `planformer.Region`), None without a guide or where obstacles
-            separate start and goal.
+        region: The proposed region (a `planformer.Region`), None without a guide, where obstacles
+            separate start and goal, or if the search was cancelled before.
         tree: The search tree if it was asked for.
     """
 

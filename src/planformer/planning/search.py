@@ -123,6 +123,7 @@ def search(
     for name, share in (("exploration", exploration), ("refinement", refinement)):
         if not 0.0 <= share <= 1.0:
             raise InvalidParameter(f"{name} must be between 0 and 1; got {share}")
+    seed = checked_seed(seed)
     record = None if progress is None else progress.begin(problem)
     if _starts_at_goal(problem):
         return _without_search(problem, PlanStatus.FINISHED, [problem.start, problem.goal], started)
@@ -142,7 +143,7 @@ def search(
         exploration=exploration,
         refinement=refinement,
         limits=_core.Limits(limits.seconds, limits.target_length, _vertex_limit(limits)),
-        seed=checked_seed(seed),
+        seed=seed,
         keep_tree=keep_tree,
         cancellation=cancel,
         progress=record,

@@ -33,9 +33,12 @@ def path_is_valid(grid: OccupancyGrid, robot: Robot, path: ArrayLike) -> bool:
         True if no cell that the path touches is blocked and every motion is possible.
 
     Raises:
-        InvalidProblem: The path's shape does not fit the robot.
+        InvalidProblem: The path's shape does not fit the robot, or it is not of numbers.
     """
-    states = np.asarray(path, dtype=np.float64)
+    try:
+        states = np.asarray(path, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise InvalidProblem(f"a path is an array of numbers: {error}") from error
     if states.ndim != 2 or states.shape[1] != robot.state_dimension or len(states) == 0:
         raise InvalidProblem(
             f"a path of a {type(robot).__name__} has shape (N, {robot.state_dimension}), N >= 1; "

@@ -6,7 +6,7 @@ import json
 import logging
 from pathlib import Path
 
-from planformer.errors import InvalidParameter, PlanformerError, StoreFull
+from planformer.errors import InvalidParameter, PlanformerError, RequestRefused, StoreFull
 from planformer.files import remove_unfinished, write_files
 from planformer.maps import load_map, save_map
 from planformer.maps.folder import map_files, picture_of
@@ -20,8 +20,9 @@ _log = logging.getLogger(__name__)
 class MapFolder:
     """Maps in a folder; not safe to use from several threads.
 
-    Every map file in the folder is offered under its name. An upload is written as a ROS map
-    `ID.yaml` with its picture and, as a mark that the service wrote it, `ID.json` with its name.
+    Every map file in the folder is offered under its name, until it is removed. An upload is
+    written as a ROS map `ID.yaml` with its picture and, as a mark that the service wrote it,
+    `ID.json` with its name.
 
     Args:
         path: The folder; it is made if it does not exist.
@@ -51,7 +52,7 @@ class MapFolder:
             StoreFull: The folder holds as many maps as it may, or cannot be written to.
         """
         info = served.info
-        if info.id in self.infos:
+        if self.has(info.id):
             return
         if len(self.infos) >= self._settings.maps:
             raise StoreFull(f"the folder holds {self._settings.maps} maps already; delete some")
@@ -64,23 +65,37 @@ class MapFolder:
             raise StoreFull(f"the folder takes no map: {error}") from error
         self._files[info.id], self.infos[info.id] = file, info
 
+    def has(self, map_id: str) -> bool:
+        """Whether the map of an id is here; it is forgotten if somebody has removed its file."""
+        if map_id in self._files and not self._files[map_id].is_file():
+            self._forget(map_id)
+        return map_id in self._files
+
     def load(self, map_id: str) -> ServedMap | None:
         """The map of an id; None if there is none, or its file is another map now."""
-        file = self._files.get(map_id)
-        if file is None:
+        if not self.has(map_id):
             return None
-        served = self._read(file)
+        served = self._read(self._files[map_id])
         return served if served is not None and served.info.id == map_id else None
 
-    def remove(self, map_id: str) -> bool:
-        """Remove a map's files; False if they are not the service's own."""
+    def remove(self, map_id: str) -> None:
+        """Remove a map's files.
+
+        Raises:
+            RequestRefused: They are not the service's own, or cannot be removed.
+        """
         file = self._files[map_id]
         if not self._is_own(file, map_id):
-            return False
-        for name in (file, file.with_suffix(".pgm"), _mark(file)):
-            name.unlink(missing_ok=True)
+            raise RequestRefused("this map's file was not written here; remove it by hand")
+        try:
+            for name in (file, file.with_suffix(".pgm"), _mark(file)):
+                name.unlink(missing_ok=True)
+        except OSError as error:
+            raise RequestRefused(f"the map cannot be removed: {error.strerror or error}") from error
+        self._forget(map_id)
+
+    def _forget(self, map_id: str) -> None:
         del self._files[map_id], self.infos[map_id]
-        return True
 
     def _take_in(self, file: Path) -> None:
         served = self._read(file)

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from functools import lru_cache
 from typing import NamedTuple
 
-from planformer.api import default_planner, plan, planner_names
+from planformer.api import default_planner, plan, planner_names, resolve_planner
 from planformer.baselines import learned_planner_names
 from planformer.errors import InvalidParameter, UnknownGuide
 from planformer.guidance import (
@@ -65,6 +65,7 @@ def check_run(grid: OccupancyGrid, ends: Ends, options: RunOptions, settings: Se
 
     Raises:
         InvalidParameter: A limit is beyond what the service allows.
+        UnknownPlanner: No such planner for the robot.
         UnknownGuide: The guide is none of the shipped ones.
     """
     if options.time_limit > settings.plan_seconds:
@@ -76,21 +77,24 @@ def check_run(grid: OccupancyGrid, ends: Ends, options: RunOptions, settings: Se
             f"max_vertices must be at most {settings.plan_vertices}; got {options.max_vertices}"
         )
     robot = ends.robot.robot()
-    if options.planner == AUTO:
-        planner = default_planner(robot, guided=options.guide is not None)
-        options = options.model_copy(update={"planner": planner})
-    learned = options.planner in learned_planner_names(robot)
+    planner = resolve_planner(options.planner, robot, guided=options.guide is not None)
+    options = options.model_copy(update={"planner": planner})
+    learned = planner in learned_planner_names(robot)
     guide = None if learned or options.guide is None else _guide(options.guide, robot)
     return Run(grid, ends, options, guide, checked_seed(options.seed))
 
 
 def check_problem(run: Run) -> None:
-    """Check start and goal, which takes a while on a map that is new.
+    """Check start, goal and guide, which takes a while for those that are new.
 
     Raises:
         InvalidProblem: Start or goal is off the map or in collision.
+        WeightsMismatch: The guide was made for another kind of robot.
     """
-    Problem(run.grid, run.ends.robot.robot(), tuple(run.ends.start), tuple(run.ends.goal))
+    robot = run.ends.robot.robot()
+    Problem(run.grid, robot, tuple(run.ends.start), tuple(run.ends.goal))
+    if run.guide is not None:
+        load_network(run.guide).require_fit(robot)
 
 
 def execute(

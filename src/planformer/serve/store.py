@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 from collections import OrderedDict
 
-from planformer.errors import RequestRefused, TooLarge, UnknownMap
+from planformer.errors import TooLarge, UnknownMap
 from planformer.serve.map_folder import MapFolder
 from planformer.serve.responses import MapInfo
 from planformer.serve.served_map import ServedMap
@@ -89,14 +89,14 @@ class MapStore:
 
         Raises:
             UnknownMap: There is none.
-            RequestRefused: The map's file is not the service's.
+            RequestRefused: The map's file is not the service's, or cannot be removed.
         """
         in_folder = False
         if self._folder is not None:
             with self._folder_lock:
-                in_folder = map_id in self._folder.infos
-                if in_folder and not self._folder.remove(map_id):
-                    raise RequestRefused("this map's file was not written here; remove it by hand")
+                in_folder = self._folder.has(map_id)
+                if in_folder:
+                    self._folder.remove(map_id)
         with self._lock:
             in_memory = self._recent.pop(map_id, None) is not None
         if not (in_folder or in_memory):

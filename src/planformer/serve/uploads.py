@@ -33,10 +33,13 @@ def read_upload(
         map_cells: Most cells of a map.
 
     Raises:
-        InvalidMap: The files are damaged, too large or no map.
+        InvalidMap: The files are damaged or no map.
+        TooLarge: The picture has too many pixels.
         InvalidParameter: A resolution is given for a map that has its own.
     """
     contents = {base_name(name): data for name, data in files.items()}
+    if len(contents) < len(files):
+        raise InvalidMap("two files have the same name")
     described = [name for name in contents if _suffix(name) in YAML_SUFFIXES]
     if len(contents) == 2 and len(described) == 1:
         if resolution is not None:

@@ -33,14 +33,20 @@ class Example:
 
 def augment(example: Example, rng: np.random.Generator) -> Example:
     """One of the eight symmetries of the square and one of two directions, at random."""
-    transpose, mirror_x, mirror_y, reverse = rng.integers(2, size=4, dtype=bool)
+    *symmetry, reverse = rng.integers(2, size=4, dtype=bool)
+    example = turned(example, *symmetry)
+    return reversed_example(example) if reverse else example
+
+
+def turned(example: Example, transpose: bool, mirror_x: bool, mirror_y: bool) -> Example:
+    """One of the eight symmetries of the square: x and y exchanged first, then mirrored."""
     if transpose:
         example = transposed(example)
     if mirror_x:
         example = mirrored(example)
     if mirror_y:
         example = transposed(mirrored(transposed(example)))
-    return reversed_example(example) if reverse else example
+    return example
 
 
 def mirrored(example: Example) -> Example:

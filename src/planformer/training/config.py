@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, dataclass
 from enum import Enum
 from typing import Any
 
@@ -132,18 +131,6 @@ class TrainConfig:
         """The settings that the recipe uses, as JSON-compatible values."""
         values = {**asdict(self), "recipe": self.recipe.value}
         return {name: value for name, value in values.items() if name not in self._unused}
-
-    @classmethod
-    def from_dict(cls, values: Mapping[str, Any]) -> TrainConfig:
-        """The inverse of `to_dict`.
-
-        Raises:
-            InvalidParameter: A key is unknown or a value out of range.
-        """
-        known = [field.name for field in fields(cls)]
-        if unknown := sorted(set(values) - set(known)):
-            raise InvalidParameter(f"unknown training settings {unknown}; valid are {known}")
-        return cls(**values)
 
 
 def config_for(network: MPTConfig, **given: Any) -> TrainConfig:

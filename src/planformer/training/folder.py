@@ -4,14 +4,32 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from planformer.files import whole_file
+from planformer.errors import InvalidParameter
+from planformer.files import locked, remove_unfinished, whole_file
 
 CHECKPOINT = "checkpoint.pt"
 LOG = "log.csv"
+
+
+@contextmanager
+def claimed(folder: Path) -> Iterator[None]:
+    """Make a training's folder and keep other processes out of it.
+
+    Raises:
+        InvalidParameter: It cannot be made, or another process trains there.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InvalidParameter(f"{folder} cannot be made: {error.strerror or error}") from error
+    with locked(folder, InvalidParameter(f"another process trains in {folder}")):
+        remove_unfinished(folder)
+        yield
 
 
 def write_log(folder: Path, rows: Sequence[Mapping[str, Any]]) -> None:

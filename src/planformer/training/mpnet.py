@@ -15,9 +15,8 @@ import torch.nn.functional as F
 from torch import Tensor, nn
 
 from planformer.errors import TrainingDiverged
-from planformer.files import remove_unfinished
 from planformer.training.devices import usable_device
-from planformer.training.folder import CHECKPOINT
+from planformer.training.folder import CHECKPOINT, claimed
 from planformer.training.interrupt import GracefulInterrupt
 from planformer.training.mpnet_config import MPNetTrainConfig
 from planformer.training.mpnet_samples import WaypointBatch, WaypointSamples
@@ -89,7 +88,7 @@ def train_mpnet(
 
     Raises:
         InvalidDataset: The paths are a car's, or none has a corner.
-        InvalidParameter: The device is not usable.
+        InvalidParameter: The device is not usable, or another process trains in the folder.
         InvalidWeights: The folder's checkpoint is damaged.
         WeightsMismatch: It is of another network, other data or other settings.
         TrainingDiverged: The loss or its gradient is infinite or no number; the folder keeps the
@@ -98,9 +97,8 @@ def train_mpnet(
     if config.threads is not None:
         torch.set_num_threads(config.threads)
     folder = Path(output)
-    with GracefulInterrupt() as interrupt, torch.random.fork_rng(devices=[]):
+    with GracefulInterrupt() as interrupt, torch.random.fork_rng(devices=[]), claimed(folder):
         torch.manual_seed(config.seed)
-        remove_unfinished(folder)
         run = _Run(config, data, validation, folder)
         finished = run.until_done(interrupt, report or (lambda _: None))
     last = run.state.history[-1]["validation_loss"] if run.state.history else None

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field, fields
+from dataclasses import asdict, dataclass, field
 from enum import Enum
 from typing import Any
 
@@ -89,18 +88,3 @@ class MPNetTrainConfig:
         """The settings as JSON-compatible values."""
         values = {**asdict(self), "optimizer": self.optimizer.value}
         return {**values, "network": self.network.to_dict()}
-
-    @classmethod
-    def from_dict(cls, values: Mapping[str, Any]) -> MPNetTrainConfig:
-        """The inverse of `to_dict`.
-
-        Raises:
-            InvalidParameter: A key is unknown or a value out of range.
-        """
-        values = dict(values)
-        known = [field.name for field in fields(cls)]
-        if unknown := sorted(set(values) - set(known)):
-            raise InvalidParameter(f"unknown training settings {unknown}; valid are {known}")
-        if "network" in values:
-            values["network"] = MPNetConfig.from_dict(values["network"])
-        return cls(**values)

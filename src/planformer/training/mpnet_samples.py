@@ -12,7 +12,7 @@ from torch import Tensor
 
 from planformer.encoding import NetworkScale, network_map
 from planformer.errors import InvalidDataset
-from planformer.training.augmentation import Example, mirrored, transposed
+from planformer.training.augmentation import Example, turned
 from planformer.training.sources import PathSource
 
 
@@ -75,7 +75,7 @@ class WaypointSamples:
         """
         examples = [self._example(map_id, waypoints, rng) for map_id in map_ids]
         if augment:
-            examples = [_turned(example, rng) for example in examples]
+            examples = [turned(e, *rng.integers(2, size=3, dtype=bool)) for e in examples]
         maps = [network_map(e.blocked, e.resolution, self._scale)[None, None] for e in examples]
         states = ([_normalised(e, name) for e in examples] for name in ("start", "goal", "path"))
         return WaypointBatch(
@@ -114,18 +114,6 @@ def _next_waypoint(path: NDArray[np.float64], start: float, end: float) -> NDArr
     last = along[corner] + end * (along[-1] - along[corner])
     x, y = (np.interp((first, last), along, coordinate) for coordinate in path.T)
     return np.vstack([np.column_stack((x, y)), path[corner]])
-
-
-def _turned(example: Example, rng: np.random.Generator) -> Example:
-    """One of the eight symmetries of the square, at random."""
-    transpose, mirror_x, mirror_y = rng.integers(2, size=3, dtype=bool)
-    if transpose:
-        example = transposed(example)
-    if mirror_x:
-        example = mirrored(example)
-    if mirror_y:
-        example = transposed(mirrored(transposed(example)))
-    return example
 
 
 def _normalised(example: Example, name: str) -> NDArray[np.float64]:

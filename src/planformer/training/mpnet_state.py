@@ -14,18 +14,7 @@ from planformer.models.mpnet import MPNet
 from planformer.models.storage import load_mpnet, save_planner
 from planformer.training.folder import CHECKPOINT, write_log
 from planformer.training.mpnet_config import MPNetOptimizer, MPNetTrainConfig
-
-_MAY_CHANGE = {
-    "bfloat16",
-    "checkpoint_seconds",
-    "device",
-    "seconds",
-    "steps",
-    "threads",
-    "validate_every",
-    "validation_maps",
-}
-"""Settings that may be others when a training goes on: they do not say what it learns."""
+from planformer.training.resume import require_same_training
 
 
 @dataclass
@@ -84,7 +73,7 @@ def mpnet_state(
     model, stored = load_mpnet(path)
     model = _placed(model, device)
     try:
-        _check_same(path, stored, config, data)
+        require_same_training(path, stored, config.to_dict(), data)
         optimizer = _optimizer(model, config)
         optimizer.load_state_dict(stored["optimizer"])
         progress = {name: stored[name] for name in ("step", "seconds", "history")}
@@ -93,22 +82,6 @@ def mpnet_state(
     except (AttributeError, KeyError, TypeError, ValueError) as error:
         raise InvalidWeights(f"{path} is no checkpoint of a training: {error!r}") from error
     return MPNetState(model, optimizer, data, **progress)
-
-
-def _check_same(
-    path: Path, stored: dict[str, Any], config: MPNetTrainConfig, data: dict[str, Any]
-) -> None:
-    theirs = {"data": stored["data"], **stored["training"]}
-    ours = {"data": data, **config.to_dict()}
-    differing = [n for n in ours if n not in _MAY_CHANGE and theirs.get(n) != ours[n]]
-    if differing:
-        there, here = (
-            ", ".join(f"{name} {values.get(name)!r:.80}" for name in differing)
-            for values in (theirs, ours)
-        )
-        raise WeightsMismatch(
-            f"{path} is of another training: {there}; asked for {here}: choose another folder"
-        )
 
 
 def _optimizer(model: MPNet, config: MPNetTrainConfig) -> optim.Optimizer:

@@ -8,7 +8,6 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import torch
@@ -21,33 +20,21 @@ from planformer.errors import (
     TrainingDiverged,
     WeightsMismatch,
 )
-from planformer.files import remove_unfinished
 from planformer.models.next_ks import NextNetwork
 from planformer.models.storage import load_next, save_planner
 from planformer.training.augmentation import augment
 from planformer.training.devices import usable_device
-from planformer.training.folder import CHECKPOINT, write_log
+from planformer.training.folder import CHECKPOINT, claimed, write_log
 from planformer.training.interrupt import GracefulInterrupt
 from planformer.training.next_ks_config import NextTrainConfig
 from planformer.training.next_ks_samples import Lessons, make_lessons, searched_paths
+from planformer.training.resume import require_same_training
 from planformer.training.sources import PathSource, load_example
 
 _METRICS = ("loss", "step_error", "value_error")
 _MAX_GRADIENT_NORM = 1.0
 _EXPLORATION = (1.0, 0.1)
 """Probability of RRT's samples in the first third of the searches, and at their end."""
-
-_MAY_CHANGE = {
-    "bfloat16",
-    "checkpoint_seconds",
-    "device",
-    "seconds",
-    "steps",
-    "threads",
-    "validate_every",
-    "validation_problems",
-}
-"""Settings that may be others when a training goes on: they do not say what it learns."""
 
 
 @dataclass(frozen=True)
@@ -115,7 +102,7 @@ def train_next(
 
     Raises:
         InvalidDataset: The paths are a car's, or fewer than a step needs.
-        InvalidParameter: The device is not usable.
+        InvalidParameter: The device is not usable, or another process trains in the folder.
         InvalidWeights: The folder's checkpoint is damaged.
         WeightsMismatch: It is of another network, other data or other settings.
         TrainingDiverged: The loss or its gradient is infinite or no number; the folder keeps the
@@ -124,9 +111,8 @@ def train_next(
     if config.threads is not None:
         torch.set_num_threads(config.threads)
     folder = Path(output)
-    with GracefulInterrupt() as interrupt, torch.random.fork_rng(devices=[]):
+    with GracefulInterrupt() as interrupt, torch.random.fork_rng(devices=[]), claimed(folder):
         torch.manual_seed(config.seed)
-        remove_unfinished(folder)
         run = _Run(config, data, validation, folder)
         finished = run.until_done(interrupt, report or (lambda _: None))
     return NextTrainResult(folder / CHECKPOINT, run.state.step, finished, run.metrics)
@@ -284,7 +270,7 @@ class _Run:
         if stored is None:
             return _State(model, optimizer)
         try:
-            self._check_same(path, stored)
+            require_same_training(path, stored, self.config.to_dict(), self.description)
             optimizer.load_state_dict(stored["optimizer"])
             return _State(
                 model, optimizer, **{name: stored[name] for name in ("step", "seconds", "history")}
@@ -293,18 +279,6 @@ class _Run:
             raise
         except (AttributeError, KeyError, TypeError, ValueError) as error:
             raise InvalidWeights(f"{path} is no checkpoint of a training: {error!r}") from error
-
-    def _check_same(self, path: Path, stored: dict[str, Any]) -> None:
-        """Refuse a checkpoint whose training would become another one."""
-        theirs, ours = stored["training"], self.config.to_dict()
-        differing = [n for n in ours if n not in _MAY_CHANGE and theirs.get(n) != ours[n]]
-        if stored["data"] != self.description:
-            differing.append("data")
-        if differing:
-            raise WeightsMismatch(
-                f"{path} is of a training with other settings ({', '.join(differing)}): choose "
-                "another folder"
-            )
 
     def _save(self) -> None:
         state = self.state

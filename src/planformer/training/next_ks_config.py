@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field, fields
+from dataclasses import asdict, dataclass, field
 from typing import Any
 
 from planformer.errors import InvalidParameter
@@ -91,18 +90,3 @@ class NextTrainConfig:
     def to_dict(self) -> dict[str, Any]:
         """The settings as JSON-compatible values."""
         return {**asdict(self), "network": self.network.to_dict()}
-
-    @classmethod
-    def from_dict(cls, values: Mapping[str, Any]) -> NextTrainConfig:
-        """The inverse of `to_dict`.
-
-        Raises:
-            InvalidParameter: A key is unknown or a value out of range.
-        """
-        values = dict(values)
-        known = [field.name for field in fields(cls)]
-        if unknown := sorted(set(values) - set(known)):
-            raise InvalidParameter(f"unknown training settings {unknown}; valid are {known}")
-        if "network" in values:
-            values["network"] = NextConfig.from_dict(values["network"])
-        return cls(**values)

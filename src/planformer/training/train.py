@@ -6,6 +6,7 @@ import dataclasses
 import math
 import time
 from collections.abc import Callable, Iterator
+from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,12 +15,11 @@ import torch
 from torch import Tensor, nn
 
 from planformer.errors import TrainingDiverged
-from planformer.files import remove_unfinished
 from planformer.models import MPTConfig
 from planformer.training.config import Recipe, TrainConfig
 from planformer.training.devices import Devices
 from planformer.training.fit import require_fit
-from planformer.training.folder import CHECKPOINT
+from planformer.training.folder import CHECKPOINT, claimed
 from planformer.training.interrupt import GracefulInterrupt
 from planformer.training.losses import imitation_loss, proposal_loss
 from planformer.training.optimizer import learning_rate
@@ -110,7 +110,8 @@ def train(
 
     Raises:
         InvalidDataset: There are fewer problems than a batch needs, or they are another robot's.
-        InvalidParameter: The device is not usable, or the recipe does not suit the network.
+        InvalidParameter: The device is not usable, the recipe does not suit the network, or another
+            process trains in the folder.
         InvalidWeights: The folder's checkpoint, the initial weights or the teacher are damaged.
         WeightsMismatch: They do not fit: another network, other data, other settings.
         TrainingDiverged: The loss or its gradient is infinite or no number; the folder keeps the
@@ -125,6 +126,7 @@ def train(
         GracefulInterrupt() as interrupt,
         torch.random.fork_rng(devices=[]),
         Devices(config) as devices,
+        claimed(folder) if devices.is_first else nullcontext(),
     ):
         torch.manual_seed(config.seed)
         state = _state(folder, network, config, data, devices)
@@ -140,8 +142,6 @@ def _state(
     folder: Path, network: MPTConfig, config: TrainConfig, data: PathSource, devices: Devices
 ) -> TrainState:
     description = dataclasses.asdict(data.spec)
-    if devices.is_first:
-        remove_unfinished(folder)
     if (folder / CHECKPOINT).exists():
         return resumed_state(folder / CHECKPOINT, network, config, description, devices.device)
     return new_state(network, config, description, devices.device)

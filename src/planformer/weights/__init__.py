@@ -62,6 +62,18 @@ def read_weights(path: Path) -> Weights:
     return Weights(path, model, card)
 
 
+def changed_at(path: Path) -> tuple[int, int]:
+    """When an .onnx file and its card were last changed, to load them again after that.
+
+    Raises:
+        InvalidWeights: One of them is missing.
+    """
+    try:
+        return path.stat().st_mtime_ns, path.with_suffix(".json").stat().st_mtime_ns
+    except (OSError, ValueError) as error:
+        raise InvalidWeights(f"cannot read the weights {path} and their card: {error}") from error
+
+
 def open_session(weights: Weights) -> InferenceSession:
     """What evaluates weights on the CPU, on one thread.
 

@@ -11,9 +11,11 @@ from pathlib import Path
 
 import pytest
 
+import planformer as pf
 from planformer.bench import AccuracySettings, run_accuracy
 from planformer.bench.accuracy.record import Record
 from planformer.bench.records import from_csv
+from planformer.bench.rows import MapFile, Row, Scene
 from planformer.errors import InvalidParameter, InvalidResults, UnknownGuide
 
 # Only the vertices end a search, so that the same problem always gives the same record.
@@ -201,3 +203,22 @@ def test_a_worker_that_is_killed_costs_its_problem_alone(small_row, tmp_path, st
 
 def cmdline(pid):
     return Path(f"/proc/{pid}/cmdline").read_bytes()
+
+
+def test_a_map_that_has_changed_is_another_setting(tmp_path):
+    grid = pf.generate_forest(seed=1, width=8.0, height=6.0)
+    file = tmp_path / "hall.yaml"
+    pf.save_map(grid, file)
+    scene = Scene("", MapFile(file, grid.resolution), pf.PointRobot())
+    run(tmp_path / "out", Row("hall", (scene,)), problems=1)
+    occupied = grid.occupied.copy()
+    occupied[:3, :3] ^= True
+    pf.save_map(pf.OccupancyGrid(occupied, grid.resolution), file)
+    with pytest.raises(InvalidResults, match=r"other settings: maps .*hall\.pgm"):
+        run(tmp_path / "out", Row("hall", (scene,)), problems=2)
+
+
+def test_what_a_kill_left_before_the_first_part_does_no_harm(small_row, tmp_path):
+    (tmp_path / ".bench.json.4194305-0a1b2c3d.tmp").write_text("{")
+    run(tmp_path, small_row, problems=1)
+    assert not list(tmp_path.glob(".*.tmp"))

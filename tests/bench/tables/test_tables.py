@@ -6,8 +6,8 @@ import math
 import pytest
 
 from planformer.bench.tables import TableSettings, run_table
-from planformer.bench.tables.measure import lost_trials, measure_problem
-from planformer.bench.tables.report import PAPER, markdown, short_markdown
+from planformer.bench.tables.measure import measure_problem, measure_without_deaths
+from planformer.bench.tables.report import PAPER, SHORT_SYSTEMS, markdown, short_markdown
 from planformer.bench.tables.summary import summarise
 from planformer.bench.tables.systems import (
     CAR_SYSTEMS,
@@ -18,6 +18,8 @@ from planformer.bench.tables.systems import (
 )
 from planformer.errors import InvalidParameter, InvalidResults
 from planformer.files import locked
+
+from .deaths import DeadlyMaps, WithASystemThatDies
 
 QUICK = TableSettings(slack=1.05, seconds=60.0, systems=("MPT-RRT*", "BIT*", "Lazy Theta*"))
 
@@ -108,15 +110,36 @@ def test_replaced_problems_are_told(small_row, make_trial):
     assert "stand in" not in short_markdown(summary)
 
 
+def test_the_short_table_has_the_default_network_and_its_rivals_alone(small_row, make_trial):
+    trials = [make_trial(system) for system in ("RRT*", "MPNet", "MPT-RRT*")]
+    summary = {"sessions": [], "lines": summarise(trials, [small_row], limit=2.0)}
+    systems = [line.split(" | ")[0] for line in short_markdown(summary).splitlines()[4:]]
+    assert systems == ["| RRT*", "| MPT-RRT*"]
+    assert set(SHORT_SYSTEMS) <= {*POINT_SYSTEMS, *CAR_SYSTEMS}
+
+
 def test_a_grid_search_beyond_the_limit_has_no_path(small_row):
     settings = TableSettings(seconds=1e-7, systems=("Lazy Theta*",))
     (trial,) = measure_problem(settings, (small_row, 0))
     assert (trial.solved, trial.cause) == (False, "no path: time limit")
 
 
+def test_a_system_that_takes_its_process_down_is_the_only_one_that_fails(small_row, tmp_path):
+    settings = WithASystemThatDies(slack=1.2, seconds=60.0)
+    trials = measure_without_deaths(settings, (small_row, 4), "the process died")
+    assert [(t.system, t.solved) for t in trials] == [
+        ("RRT*", True),
+        ("dies", False),
+        ("Lazy Theta*", True),
+    ]
+    assert trials[1].cause == "the process died with exit code -9"
+
+
 def test_lost_problems_count_as_failures(small_row):
-    trials = lost_trials(QUICK, (small_row, 4), "the process died")
-    assert [t.cause for t in trials] == ["the process died"] * 3
+    maps = dataclasses.replace(small_row.scenes[0], maps=DeadlyMaps())
+    row = dataclasses.replace(small_row, scenes=(maps,))
+    trials = measure_without_deaths(QUICK, (row, 4), "the process died")
+    assert [t.cause for t in trials] == ["the process died with exit code -9"] * 3
     lines = summarise(trials, [small_row], limit=2.0)
     assert all(line["seconds"]["value"] == 2.0 for line in lines)
     assert all(line["length_ratio"]["value"] is None for line in lines)

@@ -24,7 +24,7 @@ from planformer.bench.accuracy.record import Record
 from planformer.bench.accuracy.report import write_report
 from planformer.bench.environment import machine
 from planformer.bench.guides import fingerprints, variants
-from planformer.bench.rows import Row
+from planformer.bench.rows import Row, map_fingerprints
 from planformer.bench.running import Progress, complete
 from planformer.bench.store import ResultFolder
 from planformer.errors import InvalidParameter
@@ -42,9 +42,10 @@ def run_accuracy(
     """Measure guides, or complete a measurement that was interrupted.
 
     What is measured is kept in the folder, four problems a file, and not measured again; more rows
-    and more problems can be added to a folder, anything else needs another one. A planner that
-    fails, or takes its process down, is a counted failure with its cause. A script that calls this
-    needs the usual ``if __name__ == "__main__":`` of multiprocessing.
+    of generated maps and more problems can be added to a folder, anything else needs another one.
+    A guide that fails is a counted failure with its cause; a process that dies is one of all guides
+    on its problem. A script that calls this needs the usual ``if __name__ == "__main__":`` of
+    multiprocessing.
 
     Args:
         folder: Where the results go: summary.json, table.md and problems.csv.gz.
@@ -64,7 +65,7 @@ def run_accuracy(
     """
     settings = settings or AccuracySettings()
     _check(rows, problems, workers, settings)
-    results = ResultFolder(Path(folder), _manifest(settings, workers), Record)
+    results = ResultFolder(Path(folder), _manifest(rows, settings, workers), Record)
     records = complete(
         results,
         rows,
@@ -89,14 +90,15 @@ def _check(rows: Sequence[Row], problems: int, workers: int, settings: AccuracyS
             )
 
 
-def _manifest(settings: AccuracySettings, workers: int) -> dict[str, Any]:
-    """All that the records depend on, the rows apart."""
+def _manifest(rows: Sequence[Row], settings: AccuracySettings, workers: int) -> dict[str, Any]:
+    """All that the records depend on, rows of generated maps apart."""
     return {
         "benchmark": "accuracy",
         "planformer": planformer.__version__,
         "planner": PLANNER,
         **asdict(settings),
         "guides": fingerprints(settings.guides),
+        "maps": map_fingerprints(rows),
         "workers": workers,
         **machine(),
     }

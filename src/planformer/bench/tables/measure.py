@@ -8,8 +8,10 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from contextlib import closing
 from dataclasses import dataclass
 from enum import Enum
+from functools import partial
 
 import numpy as np
 
@@ -18,6 +20,7 @@ from planformer.bench.rows import Row
 from planformer.bench.running import FAILURES, Job
 from planformer.bench.tables.record import Trial
 from planformer.bench.tables.systems import CAR_SYSTEMS, POINT_SYSTEMS, Solution, System
+from planformer.bench.workers import Died, work_through
 from planformer.errors import InvalidParameter
 from planformer.planning import SearchLimits, search
 
@@ -112,10 +115,41 @@ def measure_problem(settings: TableSettings, job: Job) -> list[Trial]:
     return [runs[name][0] for name in systems]
 
 
-def lost_trials(settings: TableSettings, job: Job, cause: str) -> list[Trial]:
-    """Trials of a problem on which every system counts as failed."""
+def measure_without_deaths(settings: TableSettings, job: Job, cause: str) -> list[Trial]:
+    """Measure a problem again that took its process down.
+
+    Systems that do so alone are counted failures, the others are measured together.
+
+    Args:
+        settings: The settings.
+        job: The row and the problem's number in it.
+        cause: How the process died; of systems that die together, but not alone.
+
+    Returns:
+        As `measure_problem`.
+    """
     row, index = job
-    return [_failed(row.name, index, name, cause) for name in settings.systems_of(row)]
+    names = [*settings.systems_of(row)]
+    each = [dataclasses.replace(settings, systems=(name,)) for name in names]
+    alone = zip(names, _in_processes(each, job), strict=True)
+    causes = {name: outcome.cause for name, outcome in alone if isinstance(outcome, Died)}
+    healthy = tuple(name for name in names if name not in causes)
+    trials = {name: _failed(row.name, index, name, causes.get(name, cause)) for name in names}
+    if healthy:
+        (outcome,) = _in_processes([dataclasses.replace(settings, systems=healthy)], job)
+        if not isinstance(outcome, Died):
+            trials |= {trial.system: trial for trial in outcome}
+    return [trials[name] for name in names]
+
+
+def _in_processes(choices: list[TableSettings], job: Job) -> list[list[Trial] | Died]:
+    """Measure a problem with each settings, one after the other in a process that may die."""
+    with closing(work_through(choices, partial(_measure_job, job), 1)) as outcomes:
+        return [outcome for _, outcome in outcomes]
+
+
+def _measure_job(job: Job, settings: TableSettings) -> list[Trial]:
+    return measure_problem(settings, job)
 
 
 def _with_reference(known: BenchProblem, settings: TableSettings) -> BenchProblem:

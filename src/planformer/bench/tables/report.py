@@ -32,6 +32,25 @@ COLUMNS = {
 """Columns of the table: the measure and its format."""
 SHORT = ("accuracy %", "time s", "vertices", "length")
 """Those that fit on a terminal."""
+SHORT_SYSTEMS = (
+    "RRT*",
+    "IRRT*",
+    "BIT*",
+    "SST",
+    "RRT* (refined)",
+    "IRRT* (refined)",
+    "BIT* (refined)",
+    "MPT-RRT* (not refined)",
+    "MPT-RRT*",
+    "MPT-IRRT*",
+    "MPT-BIT*",
+    "MPT-RRT*-EE",
+    "Corridor-RRT*",
+    "Corridor-BIT*",
+    "Lazy Theta*",
+    "Hybrid-A*",
+)
+"""Systems of the short table: the default network and its strongest rivals."""
 
 PAPER: Mapping[str, Mapping[str, tuple[float, float, int]]] = {
     "forest-480": {
@@ -146,9 +165,10 @@ def markdown(summary: Mapping[str, Any]) -> str:
 
 
 def short_markdown(summary: Mapping[str, Any]) -> str:
-    """A Markdown table for each row with the columns of `SHORT` alone, without intervals."""
+    """A Markdown table for each row with `SHORT_SYSTEMS` and `SHORT` alone, without intervals."""
     columns = {name: COLUMNS[name] for name in SHORT}
-    return "\n".join(_tables(summary["lines"], columns, intervals=False))
+    lines = [line for line in summary["lines"] if line["system"] in SHORT_SYSTEMS]
+    return "\n".join(_tables(lines, columns, intervals=False))
 
 
 def table_cells(

@@ -11,11 +11,15 @@ from typing import Any
 
 import planformer
 from planformer.bench.environment import machine
-from planformer.bench.rows import REAL, SCENARIOS, Row, all_rows
+from planformer.bench.rows import REAL, SCENARIOS, Row, all_rows, map_fingerprints
 from planformer.bench.running import Progress, complete
 from planformer.bench.store import ResultFolder
 from planformer.bench.tables.figures import write_figures
-from planformer.bench.tables.measure import TableSettings, lost_trials, measure_problem
+from planformer.bench.tables.measure import (
+    TableSettings,
+    measure_problem,
+    measure_without_deaths,
+)
 from planformer.bench.tables.record import Trial
 from planformer.bench.tables.report import write_report
 from planformer.bench.tables.systems import definitions, fingerprints
@@ -71,9 +75,7 @@ def run_table(
     for name, value in (("problems", problems), ("workers", workers)):
         if value < 1:
             raise InvalidParameter(f"{name} must be >= 1; got {value}")
-    rows = [row for row in all_rows(real_maps).values() if _is_of(table, row.name, row.group)]
-    if not rows:
-        raise InvalidParameter(f"{table} needs the folder of the real maps")
+    rows = table_rows(table, real_maps)
     if not any(settings.systems_of(row) for row in rows):
         raise InvalidParameter(f"{table} has none of the systems {settings.systems}")
     results = ResultFolder(Path(folder), _manifest(table, rows, settings, workers), Trial)
@@ -82,7 +84,7 @@ def run_table(
         rows,
         problems,
         partial(measure_problem, settings),
-        partial(lost_trials, settings),
+        partial(measure_without_deaths, settings),
         workers=workers,
         report=report,
     )
@@ -91,10 +93,20 @@ def run_table(
     return summary
 
 
-def _is_of(table: str, row: str, group: str | None) -> bool:
+def table_rows(table: str, real_maps: Path | None = None) -> list[Row]:
+    """The rows of a table.
+
+    Raises:
+        InvalidParameter: No table has the name, or the folder of real maps is missing or lacks one.
+    """
     if table not in TABLES:
         raise InvalidParameter(f"unknown table {table!r}; choose from {', '.join(TABLES)}")
-    return group in (REAL, SCENARIOS) if table == "table5" else row in TABLES[table]
+    if table == "table5" and real_maps is None:
+        raise InvalidParameter(f"{table} needs the folder of the real maps")
+    rows = all_rows(real_maps)
+    if table == "table5":
+        return [row for row in rows.values() if row.group in (REAL, SCENARIOS)]
+    return [rows[name] for name in TABLES[table]]
 
 
 def _manifest(
@@ -108,6 +120,7 @@ def _manifest(
         **asdict(settings),
         "definitions": definitions(systems),
         "weights": fingerprints(systems.values()),
+        "maps": map_fingerprints(rows),
         "workers": workers,
         **machine(),
     }
