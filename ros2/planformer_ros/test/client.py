@@ -101,7 +101,7 @@ class Planner:
             self.process.kill()
             raise
         print(self.log)  # pytest shows it where a test fails
-        assert status == 0, self.log
+        assert status == 0, (status, self.log)
         assert "Traceback" not in self.log, self.log
 
 
