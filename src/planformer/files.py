@@ -12,10 +12,22 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import BinaryIO
 
-from planformer.errors import InvalidParameter
+from planformer.errors import InvalidParameter, PlanformerError
 
 _UNFINISHED = re.compile(r"\..+\.(\d+)-[0-9a-f]+\.tmp")
 """Name of a file that a process is writing, with the process's number."""
+
+
+def make_folder(folder: Path, error: type[PlanformerError] = InvalidParameter) -> None:
+    """Make a folder and its parents where they are missing.
+
+    Raises:
+        PlanformerError: They cannot be made; of the class that is given.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as reason:
+        raise error(f"{folder}: cannot be made: {reason.strerror or reason}") from reason
 
 
 @contextmanager

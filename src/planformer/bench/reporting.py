@@ -13,7 +13,7 @@ from typing import Any
 from planformer.bench.records import from_csv, to_csv
 from planformer.bench.store import MANIFEST, Record, ResultFolder, write_text
 from planformer.errors import InvalidResults
-from planformer.files import whole_file
+from planformer.files import make_folder, whole_file
 
 SUMMARY, TABLE, PROBLEMS = "summary.json", "table.md", "problems.csv.gz"
 
@@ -38,10 +38,7 @@ def prepared_folder(folder: str | Path) -> Path:
         InvalidResults: It cannot be made or written to, or holds results of a table.
     """
     folder = Path(folder)
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise InvalidResults(f"{folder} cannot be made: {error.strerror or error}") from error
+    make_folder(folder, InvalidResults)
     if not os.access(folder, os.W_OK):
         raise InvalidResults(f"{folder} cannot be written to; choose another folder")
     if (folder / MANIFEST).exists() or (folder / PROBLEMS).exists():

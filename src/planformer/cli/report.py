@@ -14,7 +14,7 @@ from rich.text import Text
 import planformer
 from planformer.cli.console import print_facts, to_json
 from planformer.errors import InvalidParameter
-from planformer.files import write_files
+from planformer.files import make_folder, write_files
 from planformer.planning import PlanResult
 from planformer.plotting import save_picture
 from planformer.plotting.words import duration, outcome
@@ -36,13 +36,6 @@ def require_writable(folder: Path) -> None:
             f"{folder}: cannot be written to: {nearest} is "
             f"{'read-only' if nearest.is_dir() else 'not a folder'}"
         )
-
-
-def _make(folder: Path) -> None:
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise InvalidParameter(f"{folder}: cannot be made: {error.strerror or error}") from error
 
 
 @dataclass(frozen=True)
@@ -92,7 +85,7 @@ class PlanReport:
         files = self.files
         if self.folder is None:
             return
-        _make(self.folder)
+        make_folder(self.folder)
         record = to_json(self.record()).encode()
         write_files({files["path"]: self.csv().encode(), files["record"]: record})
         if self.picture:

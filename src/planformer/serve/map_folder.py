@@ -7,7 +7,7 @@ import logging
 from pathlib import Path
 
 from planformer.errors import InvalidParameter, PlanformerError, RequestRefused, StoreFull
-from planformer.files import remove_unfinished, write_files
+from planformer.files import make_folder, remove_unfinished, write_files
 from planformer.maps import load_map, save_map
 from planformer.maps.folder import map_files, picture_of
 from planformer.serve.responses import MapInfo
@@ -33,10 +33,7 @@ class MapFolder:
     """
 
     def __init__(self, path: Path, settings: ServeSettings) -> None:
-        try:
-            path.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise InvalidParameter(f"{path}: cannot be made: {error.strerror or error}") from error
+        make_folder(path)
         remove_unfinished(path)
         self._path = path.resolve()
         self._settings = settings

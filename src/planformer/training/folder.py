@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from planformer.errors import InvalidParameter
-from planformer.files import locked, remove_unfinished, whole_file
+from planformer.files import locked, make_folder, remove_unfinished, whole_file
 
 CHECKPOINT = "checkpoint.pt"
 LOG = "log.csv"
@@ -23,10 +23,7 @@ def claimed(folder: Path) -> Iterator[None]:
     Raises:
         InvalidParameter: It cannot be made, or another process trains there.
     """
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise InvalidParameter(f"{folder} cannot be made: {error.strerror or error}") from error
+    make_folder(folder)
     with locked(folder, InvalidParameter(f"another process trains in {folder}")):
         remove_unfinished(folder)
         yield

@@ -20,6 +20,7 @@ from planformer.models import (
 from planformer.training.config import TrainConfig
 from planformer.training.folder import CHECKPOINT, write_log
 from planformer.training.optimizer import create_optimizer
+from planformer.training.resume import mismatch
 from planformer.training.validation import Metrics
 
 _MAY_CHANGE = (
@@ -166,11 +167,7 @@ def _require_same(
     common = [name for name in theirs if name in ours]
     names = [name for name in common if theirs[name] != ours[name]]
     if names or not common:
-        there, here = (
-            ", ".join(f"{name} {values[name]!r:.80}" for name in names or values)
-            for values in (theirs, ours)
-        )
-        raise WeightsMismatch(f"{what}: {there}; asked for {here}: {remedy}")
+        raise mismatch(what, names, theirs, ours, remedy)
 
 
 def _placed(model: nn.Module, device: torch.device) -> nn.Module:

@@ -17,6 +17,7 @@ from planformer.bench.figures.draw import draw_cars, draw_prediction, draw_sizes
 from planformer.bench.figures.plans import Drawn, known_problem, run
 from planformer.bench.store import write_text
 from planformer.errors import InvalidParameter
+from planformer.files import make_folder
 from planformer.plotting import save_picture
 
 RECORD = "figures.json"
@@ -88,10 +89,7 @@ def write_plan_figures(folder: Path, names: Sequence[str] | None = None) -> list
         raise InvalidParameter(
             f"unknown figures {', '.join(unknown)}; choose from {', '.join(FIGURES)}"
         )
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise InvalidParameter(f"{folder}: cannot be made: {error.strerror or error}") from error
+    make_folder(folder)
     files, plans = [], {}
     for name in names or FIGURES:
         recipe = FIGURES[name]
